@@ -67,7 +67,7 @@ pub(crate) fn profile(py: Python<'_>, directory: PathBuf, record: usize) -> PyRe
         return Err(PyIndexError::new_err(rule));
     };
     let state = state.map_err(|error| errors::directory(&error))?;
-    let mut columns: [Vec<f64>; 5] = Default::default();
+    let mut columns: [Vec<f64>; 9] = Default::default();
     for filament in 0..run.assembly().filaments.len() {
         for point in shape::profile_of(run.assembly(), filament, &state) {
             let values = [
@@ -76,6 +76,10 @@ pub(crate) fn profile(py: Python<'_>, directory: PathBuf, record: usize) -> PyRe
                 point.curvature_rad_per_nm,
                 point.twist_rad_per_nm,
                 point.energy_per_length_pn,
+                point.load.tension_pn(),
+                point.load.shear_pn(),
+                point.load.bending_moment_pn_nm(),
+                point.load.torque_pn_nm(),
             ];
             for (column, value) in columns.iter_mut().zip(values) {
                 column.push(value);
@@ -88,6 +92,10 @@ pub(crate) fn profile(py: Python<'_>, directory: PathBuf, record: usize) -> PyRe
         "curvature_rad_per_nm",
         "twist_rad_per_nm",
         "energy_per_length_pn",
+        "tension_pn",
+        "shear_pn",
+        "moment_pn_nm",
+        "torque_pn_nm",
     ];
     let all = PyDict::new(py);
     for (name, values) in names.into_iter().zip(columns) {

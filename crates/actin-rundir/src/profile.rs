@@ -6,7 +6,7 @@ use actin_sim::mechanics::State;
 use actin_sim::{Assembly, shape};
 use std::io::{self, Write};
 
-const COLUMNS: [&str; 9] = [
+const COLUMNS: [&str; 13] = [
     "s_nm",
     "x_nm",
     "y_nm",
@@ -16,6 +16,10 @@ const COLUMNS: [&str; 9] = [
     "energy_per_length_pn",
     "section",
     "filament",
+    "tension_pn",
+    "shear_pn",
+    "moment_pn_nm",
+    "torque_pn_nm",
 ];
 
 /// Writes the profiles of all filaments in a state.
@@ -40,10 +44,17 @@ pub(crate) fn write(assembly: &Assembly, state: &State, out: &mut impl Write) ->
                 point.energy_per_length_pn,
             ];
             let texts = [section.to_owned(), filament.to_string()];
+            let loads = [
+                point.load.tension_pn(),
+                point.load.shear_pn(),
+                point.load.bending_moment_pn_nm(),
+                point.load.torque_pn_nm(),
+            ];
             Ok(numbers
                 .map(Cell::Number)
                 .into_iter()
-                .chain(texts.map(Cell::Text)))
+                .chain(texts.map(Cell::Text))
+                .chain(loads.map(Cell::Number)))
         })
     });
     table::write(PROFILE, &COLUMNS.map(str::to_owned), rows, out)

@@ -280,9 +280,9 @@ mod tests {
         assert_eq!(read(ENERGIES).lines().count(), 1 + trajectory.records.len());
         let profile = read(PROFILE);
         let header = "s_nm,x_nm,y_nm,z_nm,curvature_rad_per_nm,twist_rad_per_nm,\
-                      energy_per_length_pn,section,filament";
+                      energy_per_length_pn,section,filament,tension_pn,shear_pn,moment_pn_nm,torque_pn_nm";
         assert_eq!(profile.lines().next(), Some(header));
-        assert!(profile.contains(",ellipsoids,0\n") && profile.contains(",rod,0\n"));
+        assert!(profile.contains(",ellipsoids,0,") && profile.contains(",rod,0,"));
         assert_eq!(read(COLLECTION).matches("<DataSet ").count(), 3);
         let states = fs::File::open(folder.path().join(STATES)).unwrap();
         let mut states = zip::ZipArchive::new(states).unwrap();

@@ -71,6 +71,21 @@ pub enum Observable {
         /// Arc length; from 0 to the length of the filament.
         at_nm: f64,
     },
+    /// Internal load: force and moment that the part of the filament after a cross-section exerts on the part
+    /// before it, in the axes of the cross-section. At an arc length: `internal_load[0]_at_80nm_shear_x_pn`,
+    /// `_shear_y_pn`, `_tension_pn` (negative in compression), `_moment_x_pn_nm`, `_moment_y_pn_nm` (bending),
+    /// `_torque_pn_nm`. Without `at_nm`, extreme values along the filament and their arc lengths, such as
+    /// `internal_load[0]_largest_tension_pn` and `internal_load[0]_largest_tension_at_nm`: `largest_tension`,
+    /// `smallest_tension`, `largest_shear`, `largest_moment` (magnitudes), `largest_torque` (largest magnitude, with
+    /// sign).
+    InternalLoad {
+        /// Index of the filament.
+        #[serde(default)]
+        filament: usize,
+        /// Arc length; from 0 to the length of the filament. By default extreme values are reported.
+        #[serde(default)]
+        at_nm: Option<f64>,
+    },
     /// Vector from the start to the end and its length: `end_to_end[0]_x_nm`, `end_to_end[0]_nm`.
     EndToEnd {
         /// Index of the filament.
@@ -196,6 +211,7 @@ impl Observable {
             | Self::Curvature { filament, .. }
             | Self::Twist { filament, .. }
             | Self::Strain { filament, .. }
+            | Self::InternalLoad { filament, .. }
             | Self::EndToEnd { filament }
             | Self::Contour { filament }
             | Self::Buckling { filament, .. }
@@ -236,8 +252,9 @@ impl Observable {
             Self::Curvature { at_nm, .. }
             | Self::Twist { at_nm, .. }
             | Self::Strain { at_nm, .. }
-                if !(0.0..=length).contains(&at_nm) =>
-            {
+            | Self::InternalLoad {
+                at_nm: Some(at_nm), ..
+            } if !(0.0..=length).contains(&at_nm) => {
                 let rule = format!("must lie on the filament, from 0 to {length:?}");
                 Err(SceneProblem::new(key("at_nm"), show(at_nm), rule))
             }

@@ -21,6 +21,10 @@ FIELDS = {
     "curvature": ("curvature_rad_per_nm", "curvature (rad/nm)"),
     "twist": ("twist_rad_per_nm", "excess twist (rad/nm)"),
     "energy": ("energy_per_length_pn", "elastic energy per length (pN)"),
+    "tension": ("tension_pn", "tension (pN)"),
+    "shear": ("shear_pn", "shear force (pN)"),
+    "moment": ("moment_pn_nm", "bending moment (pN nm)"),
+    "torque": ("torque_pn_nm", "torque (pN nm)"),
 }
 
 

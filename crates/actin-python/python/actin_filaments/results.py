@@ -293,7 +293,8 @@ class Run:
 
     def profile(self, record: int = -1) -> dict[str, Array]:
         """Returns fields along all filaments: `filament`, `s_nm`, `curvature_rad_per_nm`, `twist_rad_per_nm` (relative to
-        the helix), `energy_per_length_pn`."""
+        the helix), `energy_per_length_pn`, and internal loads: `tension_pn` (negative in compression), `shear_pn`,
+        `moment_pn_nm` (bending) and `torque_pn_nm`."""
         with _exports.folder(self) as directory:
             return _actin.profile(directory, self[record].index)
 
@@ -305,7 +306,7 @@ class Run:
         return _plots.of_run(self, ax)
 
     def plot_profile(self, field: str = "curvature", record: int = -1, ax: Axes | None = None) -> Axes:
-        """Plots `curvature`, `twist` or `energy` along the filaments, of the first 20 of them. Returns the axes."""
+        """Plots `curvature`, `twist`, `energy`, `tension`, `shear`, `moment` or `torque` along the filaments, of the first 20 of them. Returns the axes."""
         return _plots.of_profile(self, field, record, ax)
 
     def view(self) -> Page:

@@ -11,6 +11,7 @@ mod buckling;
 mod chain;
 mod displacement;
 mod energies;
+mod internal_load;
 mod linker;
 mod local;
 mod means;
@@ -127,6 +128,9 @@ fn build(one: Observable, scene: &Scene, energies: &EnergyNames) -> Box<dyn Obse
         Observable::Curvature { filament, at_nm } => Box::new(local::Curvature { filament, at_nm }),
         Observable::Twist { filament, at_nm } => Box::new(local::Twist { filament, at_nm }),
         Observable::Strain { filament, at_nm } => Box::new(local::Strain { filament, at_nm }),
+        Observable::InternalLoad { filament, at_nm } => {
+            Box::new(internal_load::InternalLoad { filament, at_nm })
+        }
         Observable::EndToEnd { filament } => Box::new(tip::EndToEnd { filament }),
         Observable::Contour { filament } => Box::new(chain::Contour { filament }),
         Observable::Buckling { filament, points } => {

@@ -1,6 +1,6 @@
-//! Local fields along a filament: position, curvature, twist and energy per length.
+//! Local fields along a filament: position, curvature, twist, energy per length and internal load.
 
-use super::Ribbon;
+use super::{Ribbon, SectionLoad, SectionLoads};
 use crate::Assembly;
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 
@@ -20,6 +20,8 @@ pub struct ProfilePoint {
     pub twist_rad_per_nm: f64,
     /// Elastic energy per length (pN).
     pub energy_per_length_pn: f64,
+    /// Internal load of the cross-section.
+    pub load: SectionLoad,
     /// `true` for monomers.
     pub is_ellipsoids: bool,
 }
@@ -45,6 +47,7 @@ pub fn profile_of(assembly: &Assembly, filament: usize, state: &State) -> Vec<Pr
     let ribbon = Ribbon::from_state(assembly, filament, state);
     let curvatures = ribbon.curvatures();
     let energies = energy_per_length(assembly, filament, state, &ribbon.cells());
+    let loads = SectionLoads::new(assembly, filament, state);
     (0..ribbon.s_nm.len())
         .map(|i| ProfilePoint {
             s_nm: ribbon.s_nm[i],
@@ -52,6 +55,7 @@ pub fn profile_of(assembly: &Assembly, filament: usize, state: &State) -> Vec<Pr
             curvature_rad_per_nm: curvatures[i].x.hypot(curvatures[i].y),
             twist_rad_per_nm: curvatures[i].z,
             energy_per_length_pn: energies[i],
+            load: loads.at(ribbon.s_nm[i]),
             is_ellipsoids: ribbon.between_monomers[i],
         })
         .collect()

@@ -15,6 +15,28 @@ pub struct SectionLoad {
     pub couple_pn_nm: Vector3,
 }
 
+impl SectionLoad {
+    /// Axial force (pN); negative in compression.
+    pub fn tension_pn(&self) -> f64 {
+        self.force_pn.z
+    }
+
+    /// Magnitude of the shear force (pN).
+    pub fn shear_pn(&self) -> f64 {
+        self.force_pn.xy().norm()
+    }
+
+    /// Magnitude of the bending moment (pN nm).
+    pub fn bending_moment_pn_nm(&self) -> f64 {
+        self.couple_pn_nm.xy().norm()
+    }
+
+    /// Axial torque (pN nm).
+    pub fn torque_pn_nm(&self) -> f64 {
+        self.couple_pn_nm.z
+    }
+}
+
 #[derive(Clone, Copy, Debug, Default)]
 struct Resultant {
     s_nm: f64,

@@ -12,6 +12,7 @@
 use super::{Curve, Run};
 use crate::pose::{Bonds, PLATE_NM, bodies, share};
 use actin_sim::mechanics::{Loads, State, Vector3};
+use actin_sim::shape::ProfilePoint;
 use actin_sim::{Assembly, At, Part};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -148,6 +149,10 @@ fn fields(run: &Run) -> Vec<Value> {
         field("curvature", "rad/µm", false),
         field("excess twist", "rad/µm", true),
         field("elastic energy per length", "pN", false),
+        field("tension", "pN", true),
+        field("shear force", "pN", false),
+        field("bending moment", "pN nm", false),
+        field("torque", "pN nm", true),
         field("displacement from the first record", "nm", false),
         field("force of loads, linkers and contacts", "pN", false),
         field("force of contacts", "pN", false),
@@ -168,8 +173,9 @@ fn fields(run: &Run) -> Vec<Value> {
     all.into_iter().filter_map(Field::encoded).collect()
 }
 
-/// Returns curvature and excess twist (rad/µm) and energy per length (pN) at each point.
-fn local(assembly: &Assembly, state: &State) -> Vec<[f64; 3]> {
+/// Returns curvature and excess twist (rad/µm), energy per length (pN), tension, shear force (pN), bending moment and
+/// torque (pN nm) at each point.
+fn local(assembly: &Assembly, state: &State) -> Vec<[f64; 7]> {
     let mut all = Vec::with_capacity(assembly.points.len());
     for (i, span) in assembly.filaments.iter().enumerate() {
         let profile = actin_sim::shape::profile_of(assembly, i, state);
@@ -178,11 +184,15 @@ fn local(assembly: &Assembly, state: &State) -> Vec<[f64; 3]> {
             let next = next.clamp(1, profile.len() - 1);
             let [a, b] = [&profile[next - 1], &profile[next]];
             let share = ((point.s_nm - a.s_nm) / (b.s_nm - a.s_nm)).clamp(0.0, 1.0);
-            let mix = |a: f64, b: f64| a + share * (b - a);
+            let mix = |value: fn(&ProfilePoint) -> f64| value(a) + share * (value(b) - value(a));
             all.push([
-                1e3 * mix(a.curvature_rad_per_nm, b.curvature_rad_per_nm),
-                1e3 * mix(a.twist_rad_per_nm, b.twist_rad_per_nm),
-                mix(a.energy_per_length_pn, b.energy_per_length_pn),
+                1e3 * mix(|p| p.curvature_rad_per_nm),
+                1e3 * mix(|p| p.twist_rad_per_nm),
+                mix(|p| p.energy_per_length_pn),
+                mix(|p| p.load.tension_pn()),
+                mix(|p| p.load.shear_pn()),
+                mix(|p| p.load.bending_moment_pn_nm()),
+                mix(|p| p.load.torque_pn_nm()),
             ]);
         }
     }
