@@ -4,7 +4,9 @@ import re
 import subprocess
 import sys
 
+import actin_filaments as af
 import pytest
+from actin_filaments import scenes
 
 PAGES = ["crates/actin-python/README.md", "docs/how-to/python.md"]
 
@@ -19,6 +21,19 @@ def test_blocks_of_a_page_run(root, tmp_path, page):
     subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True)
     figures = re.findall(r'savefig\("(.*?)"\)', text)
     assert all((tmp_path / figure).stat().st_size > 1000 for figure in figures)
+
+
+def test_the_reference_is_up_to_date(root):
+    """`python crates/actin-python/stubs.py --reference` writes the page."""
+    command = [sys.executable, root / "crates/actin-python/stubs.py", "--reference"]
+    made = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert made.stdout == (root / "docs/reference/python.md").read_text()
+
+
+def test_the_reference_lists_every_public_name(root):
+    text = (root / "docs/reference/python.md").read_text()
+    names = [name for name in [*af.__all__, *scenes.__all__] if not name.startswith("_")]
+    assert not [name for name in names if not re.search(rf"^(## |\| `){name}\b", text, flags=re.MULTILINE)]
 
 
 def test_the_notebook_runs(root, tmp_path):
