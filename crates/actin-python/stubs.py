@@ -116,10 +116,10 @@ whole description. [Python](../how-to/python.md) shows how to use the package.
 SCENES = """
 ## actin_filaments.scenes
 
-Parts of scenes. The keyword arguments of a class are the keys of the same part in the
-[scene keys](scene-keys.md), which have descriptions, units and defaults.
+Classes of the parts of scenes. Their keyword arguments are the keys of the same part in the [scene keys](scene-keys.md),
+which have descriptions, units and defaults.
 
-| class | description |
+| part | classes |
 |---|---|"""
 _Definition = ast.ClassDef | ast.FunctionDef
 
@@ -183,8 +183,16 @@ def page() -> str:
         lines += ["", f"## {node.name}", "", sentence(ast.get_docstring(node)) + of_bases(node)]
         rows = [f"| `{name}` | {words} |" for name, words in members(node)]
         lines += ["", "| member | description |", "|---|---|", *rows] if rows else []
-    parts = [f"| `{name}` | {sentence(getattr(scenes, name).__doc__)} |" for name in scenes.__all__]
-    return "\n".join([*lines, SCENES, *parts, ""])
+    return "\n".join([*lines, SCENES, *parts(), ""])
+
+
+def parts() -> Iterator[str]:
+    """Yields rows of the classes of scenes: structures, and the choices of each enumeration."""
+    classes = {"structures": [name for name in scenes.__all__ if name not in scenes.variants().values()]}
+    for (enumeration, _), name in sorted(scenes.variants().items()):
+        classes.setdefault(f"[{enumeration}](scene-keys.md#{enumeration.lower()})", []).append(name)
+    for part, names in classes.items():
+        yield f"| {part} | {', '.join(f'`{name}`' for name in names)} |"
 
 
 if __name__ == "__main__":
