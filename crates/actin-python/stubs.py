@@ -127,7 +127,7 @@ _Definition = ast.ClassDef | ast.FunctionDef
 def definitions() -> dict[str, _Definition]:
     """Returns the classes and functions of the modules of the package."""
     folder = Path(actin_filaments.__file__).parent
-    files = sorted(file for file in folder.glob("*.py*") if file.stem not in ("scenes", "cosseratbench") and file.suffix != ".pyc")
+    files = [folder / "_actin.pyi", *sorted(folder.glob("_*.py")), folder / "errors.py", folder / "results.py"]
     nodes = [node for file in files for node in ast.parse(file.read_text(encoding="utf-8")).body]
     return {node.name: node for node in nodes if isinstance(node, _Definition)}
 

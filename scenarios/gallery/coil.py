@@ -5,7 +5,9 @@ from pathlib import Path
 import actin_filaments as af
 import matplotlib.pyplot as plt
 import numpy as np
-from actin_filaments.scenes import Clamp, Contour, EndReaction, Equilibrium, Filament, Force, LoadFactor, Rod, RodModel, Shift, Stage, Turn
+from actin_filaments.scenes import (
+    Clamp, Contour, EndReaction, Equilibrium, Filament, Force, LoadFactor, Rod, RodModel, Shift, Stage, Turn,
+)
 
 scene = af.Scene(
     title="Coiling of a twisted filament",
