@@ -33,6 +33,26 @@ pub struct RodPlace {
     pub azimuth: f64,
 }
 
+/// Distance (nm) below which a place lies at a node, above the round-off of sums of lengths.
+const NODE_TOLERANCE_NM: f64 = 1e-9;
+
+impl RodPlace {
+    /// Place on the axis at an arc length `s` (nm) from the start of the rod, limited to the rod.
+    /// `nodes` are its [`node_positions`](RodLayout::node_positions). A node belongs to the segment
+    /// before it.
+    pub fn on_axis(layout: &RodLayout, nodes: &[f64], s: f64) -> Self {
+        let lengths = layout.segment_lengths();
+        let is_past = |end: &f64| end + NODE_TOLERANCE_NM < s;
+        let segment = nodes[1..].partition_point(is_past).min(lengths.len() - 1);
+        let fraction = (s - nodes[segment]) / lengths[segment];
+        Self {
+            segment,
+            fraction: fraction.clamp(0.0, 1.0),
+            ..Self::default()
+        }
+    }
+}
+
 impl Site {
     /// Creates a site on a monomer: `r = x + Q b` with the arm `b` (nm, body frame).
     ///

@@ -7,8 +7,10 @@ use actin_equilibrium::{
     Equilibrium, Layout, Newton, NewtonFailure, NewtonOptions, Residual, SolveError,
 };
 use actin_integrate::{
-    Bath, Drag, Moment, Observer, Pause, Run, RunFailure, largest_frequency, stable_step,
+    Bath, Composition, Drag, Moment, Observer, Pause, Run, RunFailure, largest_frequency,
+    stable_step,
 };
+use actin_mechanics::State;
 use actin_sim::{Task, solver};
 use pyo3::exceptions::{PyArithmeticError, PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
@@ -52,7 +54,7 @@ impl System {
     ///
     /// Settings are kept for later calls. The default `h` is estimated again after bodies, terms or clamps have
     /// been added and after `scheme` has changed. `step(a)` and `step(b)` together equal `step(a + b)` bitwise.
-    /// Ctrl-C ends the steps.
+    /// Ctrl-C ends the steps. For a `Brownian` scene, `h` is the only setting: fluid and noise are those of the scene.
     ///
     /// Raises `RunFailed` if the motion diverges. The system then is in the last valid state, at `steps` and
     /// `time`.
@@ -68,27 +70,31 @@ impl System {
         thermal_energy: Option<f64>,
         seed: Option<u64>,
     ) -> PyResult<()> {
-        if let Some(drag) = drag {
-            self.settings.drag = drag;
+        let has_settings = scheme.is_some() || drag.is_some() || thermal_energy.is_some();
+        if self.is_overdamped() && (has_settings || seed.is_some()) {
+            let rule =
+                "scheme, drag, thermal_energy and seed of a Brownian scene are set in its task";
+            return Err(PyValueError::new_err(rule));
         }
+        self.settings.drag = drag.unwrap_or(self.settings.drag);
         if let Some(energy) = thermal_energy {
             self.settings.thermal_energy = (energy > 0.0).then_some(energy);
         }
         self.settings.seed = seed.unwrap_or(self.settings.seed);
         self.settings.scheme = self.scheme(scheme)?;
         self.settings.step = h.or(self.settings.step);
-        let h = match self.settings.step {
-            Some(h) => h,
-            None => self.default_step()?,
-        };
+        let h = self.settings.step.map_or_else(|| self.default_step(), Ok)?;
         let run = self.plan(h, number)?;
-        let watch = Watch::new(None);
         let mut looker = InterruptObserver {
-            watch,
+            watch: Watch::new(None),
             raised: Arc::clone(&self.error),
         };
-        let mechanics = &mut self.mechanics;
-        let ended = py.detach(|| run.execute(mechanics, &mut [&mut looker]));
+        self.prepare_stepper()?;
+        let (mechanics, stepper) = (&mut self.mechanics, &mut self.stepper);
+        let ended = py.detach(|| match stepper {
+            Some(stepper) => run.execute_steps(stepper, mechanics, &mut [&mut looker]),
+            None => run.execute(mechanics, &mut [&mut looker]),
+        });
         match ended {
             Ok(outcome) => {
                 self.clock.steps += outcome.steps;
@@ -134,6 +140,9 @@ impl System {
             turn_length,
             ..NewtonOptions::default()
         };
+        if let Some(rule) = self.missing_for_equilibrium() {
+            return Err(PyValueError::new_err(rule));
+        }
         let mut newton = self.newton(options)?;
         let saddles = self.settings_of_equilibrium().map_or_else(
             || actin_sim::Equilibrium::default().leave_saddles,
@@ -160,7 +169,45 @@ impl System {
     }
 }
 
+pub(crate) fn read_scheme(name: &str) -> PyResult<&'static Composition> {
+    Composition::by_name(name).map_err(errors::value)
+}
+
 impl System {
+    /// Returns the method with a name, or the current one.
+    fn scheme(&self, name: Option<&str>) -> PyResult<&'static Composition> {
+        name.map_or(Ok(self.settings.scheme), read_scheme)
+    }
+
+    /// Returns `true` if no bodies were added to those of the scene.
+    pub(crate) fn has_bodies_of_scene(&self) -> bool {
+        let count = |state: &State| (state.points.len(), state.frames.len());
+        let assembly = self.assembly.as_ref();
+        assembly.is_some_and(|built| count(built.system.state()) == count(self.state()))
+    }
+
+    fn is_overdamped(&self) -> bool {
+        let assembly = self.assembly.as_ref();
+        assembly.is_some_and(|assembly| matches!(assembly.scene.task, Task::Brownian(_)))
+    }
+
+    /// Creates the stepper of overdamped motion, if the scene needs one and there is none.
+    fn prepare_stepper(&mut self) -> PyResult<()> {
+        let (Some(assembly), Some(estimate), None) =
+            (&self.assembly, &self.estimate, &self.stepper)
+        else {
+            return Ok(());
+        };
+        if self.is_overdamped() && !self.has_bodies_of_scene() {
+            return Err(PyValueError::new_err(
+                "bodies that were added to a Brownian scene have no friction: add them to the scene",
+            ));
+        }
+        let stepper = estimate.overdamped_stepper(assembly, &self.mechanics);
+        self.stepper = stepper.transpose().map_err(errors::value)?;
+        Ok(())
+    }
+
     /// Plans `number` steps of length `h`.
     fn plan(&mut self, h: f64, number: u64) -> PyResult<Run> {
         let [translational, rotational] = self.settings.drag;
@@ -169,6 +216,10 @@ impl System {
         self.clock.set_step(h);
         let Clock { steps, offset, .. } = self.clock;
         let run = run.continuing_from(steps).with_time_offset(offset);
+        if self.is_overdamped() {
+            // Long steps could let filaments pass through each other within a few steps.
+            return run.checking_every(1).map_err(errors::value);
+        }
         match self.settings.thermal_energy {
             None => Ok(run.with_drag(drag).without_merged_steps()),
             Some(energy) => {

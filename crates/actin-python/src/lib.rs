@@ -4,11 +4,14 @@
 
 mod advance;
 mod arrays;
+mod callback;
 mod directory;
 mod driven;
 mod errors;
 mod fit;
+mod links;
 mod look;
+mod pickle;
 mod records;
 mod rod;
 mod run;

@@ -110,7 +110,7 @@ impl System {
     /// Returns the potential energy of each term.
     fn energies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
-        for (term, energy) in self.terms.iter().zip(self.mechanics.energies()) {
+        for (term, energy) in self.terms.values().zip(self.mechanics.energies()) {
             let before: f64 = match all.get_item(term.term())? {
                 Some(before) => before.extract()?,
                 None => 0.0,
@@ -183,7 +183,7 @@ impl System {
     fn __repr__(&self) -> String {
         let state = self.state();
         let mut names: Vec<&str> = Vec::new();
-        for term in &self.terms {
+        for term in self.terms.values() {
             if !names.contains(&term.term()) {
                 names.push(term.term());
             }

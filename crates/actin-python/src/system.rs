@@ -2,19 +2,23 @@
 //! equilibria.
 
 use crate::arrays::{read, vector, vectors};
+use crate::callback::Callback;
 use crate::driven::{Motion, Motions, along_path};
 use crate::errors;
 use crate::rod::{Rod, RodArguments};
 use crate::scene::Scene;
-use crate::terms::{Applied, Field, Term};
+use crate::terms::{Applied, Term};
+use actin_brownian::Brownian;
 use actin_integrate::Composition;
 use actin_mechanics::{
-    ControlId, Drive, Interaction, Point, PointLoad, Slider, Spring, Springs, State,
-    System as Mechanics, Vector3, Weight,
+    ControlId, Drive, Interaction, Point, PointLoad, Slider, State, System as Mechanics, Vector3,
+    Weight,
 };
-use actin_sim::{Assembly, Plan, Task};
+use actin_sim::{Assembly, Estimate, Plan, Task};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex};
 
 /// Default settings of time steps.
@@ -48,7 +52,7 @@ impl Default for Settings {
 /// Number of steps and time.
 ///
 /// The time is a product instead of a sum, so that it does not depend on the number of calls.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Clock {
     pub(crate) steps: u64,
     /// Length of the current steps.
@@ -81,50 +85,73 @@ impl Clock {
 #[derive(Debug)]
 pub(crate) struct System {
     pub(crate) mechanics: Mechanics,
-    pub(crate) terms: Vec<Term>,
+    pub(crate) terms: BTreeMap<usize, Term>,
     pub(crate) applied: Arc<Applied>,
     pub(crate) motions: Motions,
     pub(crate) settings: Settings,
     /// Scene that the system was created from.
     pub(crate) assembly: Option<Arc<Assembly>>,
+    pub(crate) scene: Option<Arc<Py<Scene>>>,
     /// Controls of the loads added here or of the loads of the scene.
-    factors: Vec<ControlId>,
+    pub(crate) factors: Vec<ControlId>,
     pub(crate) clock: Clock,
     /// Exception of a Python callback during a step.
     pub(crate) error: Arc<Mutex<Option<PyErr>>>,
+    /// Terms of Python functions, by number.
+    pub(crate) callbacks: BTreeMap<usize, Arc<Callback>>,
+    /// Numbers of terms that can be removed.
+    pub(crate) removable: BTreeSet<usize>,
+    /// Time step of the scene.
+    pub(crate) estimate: Option<Estimate>,
+    /// Stepper of overdamped motion, once it has been used.
+    pub(crate) stepper: Option<Brownian>,
 }
 
 impl System {
     fn from_parts(state: State, terms: Vec<Term>) -> Self {
+        let applied = Arc::new(Applied::default());
+        let terms = terms.into_iter().chain([Term::Applied(applied.clone())]);
         let mut system = Self {
             mechanics: Mechanics::new(State::default(), Vec::new()),
-            terms,
-            applied: Arc::default(),
+            terms: terms.enumerate().collect(),
+            applied,
             motions: Motions::default(),
             settings: Settings::default(),
             assembly: None,
+            scene: None,
             factors: Vec::new(),
             clock: Clock::default(),
             error: Arc::default(),
+            callbacks: BTreeMap::new(),
+            removable: BTreeSet::new(),
+            estimate: None,
+            stepper: None,
         };
-        system.terms.push(Term::Own(system.applied.clone()));
         system.renew(state);
         system
     }
 
     /// Replaces the state, which can have more bodies, and keeps the terms.
     pub(crate) fn renew(&mut self, state: State) {
-        let terms = self.terms.iter().cloned();
+        let terms = self.terms.values().cloned();
         let terms = terms.map(|term| -> Box<dyn Interaction> { Box::new(term) });
         let time = state.time;
         self.mechanics = Mechanics::new(state, terms.collect());
         self.settings.estimated = None;
+        self.stepper = None;
         if !self.motions.is_empty() {
             self.mechanics.set_drive(Box::new(self.motions.clone()));
             let state = self.mechanics.state_mut();
             state.time = time;
             self.motions.place(state, time);
         }
+    }
+
+    /// Adds a term; returns its number.
+    pub(crate) fn push(&mut self, term: Term) -> usize {
+        let number = self.terms.last_key_value().map_or(0, |(last, _)| last + 1);
+        self.terms.insert(number, term);
+        number
     }
 
     /// Adds a term that `make` creates for the state.
@@ -134,7 +161,9 @@ impl System {
     ) -> PyResult<T> {
         let mut state = self.mechanics.state().clone();
         let (term, made) = make(&mut state)?;
-        self.terms.extend(term);
+        if let Some(term) = term {
+            self.push(term);
+        }
         self.renew(state);
         Ok(made)
     }
@@ -156,8 +185,8 @@ impl System {
     }
 }
 
-fn settings_of(assembly: &Assembly, plan: &Plan<'_>) -> PyResult<Settings> {
-    let step = plan.estimate().map(|estimate| estimate.time_step_ns);
+fn settings_of(assembly: &Assembly, estimate: Option<&Estimate>) -> PyResult<Settings> {
+    let step = estimate.map(|estimate| estimate.time_step_ns);
     match &assembly.scene.task {
         Task::Equilibrium(_) => Ok(Settings::default()),
         Task::Dynamics(task) if task.drag.fluid().is_none() => {
@@ -172,8 +201,13 @@ fn settings_of(assembly: &Assembly, plan: &Plan<'_>) -> PyResult<Settings> {
                 seed: task.thermal.map_or(1, |thermal| thermal.seed),
             })
         }
-        Task::Brownian(_) | Task::Dynamics(_) => Err(PyValueError::new_err(
-            "a System has numerical damping only, not the drag of a fluid: use actin.run",
+        Task::Brownian(task) => Ok(Settings {
+            step,
+            seed: task.seed,
+            ..Settings::default()
+        }),
+        Task::Dynamics(_) => Err(PyValueError::new_err(
+            "a System supports the fluid of Brownian, not of Dynamics: use run",
         )),
     }
 }
@@ -202,10 +236,6 @@ fn read_along(
     Ok(rows.map(Vector3::from_column_slice).collect())
 }
 
-fn read_scheme(name: &str) -> PyResult<&'static Composition> {
-    Composition::by_name(name).map_err(errors::value)
-}
-
 #[pymethods]
 impl System {
     #[new]
@@ -216,9 +246,10 @@ impl System {
     /// Creates the system of a scene in its initial state, with the method, time step, drag and noise of its task.
     ///
     /// In a motion, steps follow load factors over time and the path of the scene. For equilibria, `set_path` moves
-    /// along the path.
+    /// along the path. Steps of a `Brownian` scene have its fluid and its noise.
     #[staticmethod]
-    fn from_scene(py: Python<'_>, scene: &Bound<'_, Scene>) -> PyResult<Self> {
+    pub(crate) fn from_scene(py: Python<'_>, scene: &Bound<'_, Scene>) -> PyResult<Self> {
+        let source = scene.clone().unbind();
         let scene = scene.get();
         let assembly = scene.build(py)?;
         let refused = |key: &str, rule: &str| {
@@ -231,23 +262,26 @@ impl System {
             let rule = "time-dependent sections are supported by `actin run` only";
             return refused("filament.sections", rule);
         }
-        let mut linkers = scene.inner.linkers.iter();
+        let mut linkers = assembly.scene.linkers.iter();
         if linkers.any(|linker| linker.kinetics.is_some()) {
             return refused("linkers", "kinetics are supported by actin.run only");
         }
         let plan = py.detach(|| Plan::new(&assembly));
         let plan = plan.map_err(|problem| scene.refuse(py, &problem))?;
-        let settings = settings_of(&assembly, &plan)?;
+        let estimate = plan.estimate().copied();
+        let settings = settings_of(&assembly, estimate.as_ref())?;
         let count = assembly.system.interactions().len();
         let terms = (0..count).map(|i| Term::OfScene(Arc::clone(&assembly), i));
         let mut system = Self::from_parts(assembly.system.state().clone(), terms.collect());
-        if matches!(assembly.scene.task, Task::Dynamics(_)) {
+        if !matches!(assembly.scene.task, Task::Equilibrium(_)) {
             system.motions.of_scene = assembly.drive_in_time().map(Arc::from);
             system.renew(assembly.system.state().clone());
         }
         system.settings = settings;
+        system.estimate = estimate;
         system.factors = assembly.load_controls().to_vec();
         system.assembly = Some(assembly);
+        system.scene = Some(Arc::new(source));
         Ok(system)
     }
 
@@ -321,25 +355,6 @@ impl System {
         self.add(|state| arguments.put(state))
     }
 
-    /// Adds springs between pairs of points.
-    fn add_springs(
-        &mut self,
-        pairs: Vec<[usize; 2]>,
-        stiffness: f64,
-        rest_length: f64,
-    ) -> PyResult<()> {
-        let spring = |points| Spring {
-            points,
-            stiffness,
-            rest_length,
-        };
-        self.add(|state| {
-            let springs = Springs::new(state, pairs.into_iter().map(spring).collect());
-            let springs = springs.map_err(errors::value)?;
-            Ok((Some(Term::Own(Arc::new(springs))), ()))
-        })
-    }
-
     /// Adds the weight of all points. Returns the index of its factor.
     fn add_weight(&mut self, acceleration: &Bound<'_, PyAny>) -> PyResult<usize> {
         let acceleration = vector(acceleration, "acceleration")?;
@@ -366,13 +381,6 @@ impl System {
         })?;
         self.factors.push(control);
         Ok(self.factors.len() - 1)
-    }
-
-    /// Adds forces on points as a function of all positions, `[n, 3]` to `[n, 3]`, and optionally their energy.
-    #[pyo3(signature = (force, energy = None))]
-    fn add_field(&mut self, force: Py<PyAny>, energy: Option<Py<PyAny>>) -> PyResult<()> {
-        let field = Field::new(force, energy, Arc::clone(&self.error));
-        self.add(|_| Ok((Some(Term::Own(Arc::new(field))), ())))
     }
 
     /// Sets additional forces on points, `[n, 3]`, replacing those of earlier calls.
@@ -580,10 +588,5 @@ impl System {
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner);
         error.take().map_or(Ok(()), Err)
-    }
-
-    /// Returns the method with a name, or the current one.
-    pub(crate) fn scheme(&self, name: Option<&str>) -> PyResult<&'static Composition> {
-        name.map_or(Ok(self.settings.scheme), read_scheme)
     }
 }

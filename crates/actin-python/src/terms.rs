@@ -1,15 +1,20 @@
 //! Interactions of a `System`.
 
 use crate::arrays::Block;
-use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3, Vectors};
+use actin_mechanics::{
+    Approach, Coordinates, Interaction, Loads, RandomStress, SecondOrder, State, Stiffness,
+    Vector3, Vectors,
+};
 use actin_sim::Assembly;
 use pyo3::prelude::*;
-use std::sync::{Arc, Mutex, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
+use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 /// An interaction shared by several systems.
 #[derive(Clone, Debug)]
 pub(crate) enum Term {
     Own(Arc<dyn Interaction>),
+    /// Loads set from Python.
+    Applied(Arc<Applied>),
     /// An interaction of a scene, by index.
     OfScene(Arc<Assembly>, usize),
 }
@@ -18,6 +23,7 @@ impl Term {
     fn inner(&self) -> &dyn Interaction {
         match self {
             Self::Own(term) => term.as_ref(),
+            Self::Applied(applied) => applied.as_ref(),
             Self::OfScene(assembly, i) => assembly.system.interactions()[*i].as_ref(),
         }
     }
@@ -52,8 +58,16 @@ impl Interaction for Term {
         self.inner().second_order()
     }
 
-    fn passes_through(&self, from: &State, to: &State) -> Option<actin_mechanics::Coordinates> {
+    fn random_stress(&self) -> Option<&dyn RandomStress> {
+        self.inner().random_stress()
+    }
+
+    fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
         self.inner().passes_through(from, to)
+    }
+
+    fn approaches(&self, from: &State, to: &State) -> Vec<Approach> {
+        self.inner().approaches(from, to)
     }
 }
 
@@ -77,6 +91,12 @@ impl Applied {
 
     fn write(&self) -> RwLockWriteGuard<'_, Set> {
         self.loads.write().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Forces and torques.
+    pub(crate) fn loads(&self) -> [Vec<[f64; 3]>; 2] {
+        let Set { force, torque } = &*self.read();
+        [force.clone(), torque.clone()]
     }
 
     /// Sets the forces on the first points; forces on other points are zero.
@@ -135,88 +155,9 @@ impl SecondOrder for Applied {
     fn add_stiffness(&self, _state: &State, _stiffness: &mut Stiffness) {}
 }
 
-/// Forces on points from a Python function, with the term name `field`.
-#[derive(Debug)]
-pub(crate) struct Field {
-    force: Py<PyAny>,
-    energy: Option<Py<PyAny>>,
-    error: Arc<Mutex<Option<PyErr>>>,
-}
-
-impl Field {
-    /// Creates the term from `force(position) -> force`, both `[n, 3]`, and `energy(position) -> float`. Exceptions
-    /// are stored in `error`.
-    pub(crate) fn new(
-        force: Py<PyAny>,
-        energy: Option<Py<PyAny>>,
-        error: Arc<Mutex<Option<PyErr>>>,
-    ) -> Self {
-        Self {
-            force,
-            energy,
-            error,
-        }
-    }
-
-    fn note(&self, error: PyErr) {
-        let mut first = self.error.lock().unwrap_or_else(PoisonError::into_inner);
-        first.get_or_insert(error);
-    }
-}
-
 /// Converts vectors to a read-only array with one row each.
 pub(crate) fn rows<'py>(py: Python<'py>, vectors: &Vectors) -> PyResult<Bound<'py, PyAny>> {
     let values: Vec<f64> = vectors.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
     let rows = Block::new(values, &[vectors.len(), 3]).into_python(py)?;
     Ok(rows.into_bound(py))
-}
-
-impl Interaction for Field {
-    fn term(&self) -> &'static str {
-        "field"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        let found = Python::attach(|py| {
-            let force = self
-                .force
-                .bind(py)
-                .call1((rows(py, &state.points.position)?,))?;
-            let shape = [Some(state.points.len()), Some(3)];
-            crate::arrays::read(&force, "the force of a field", &shape)
-        });
-        match found {
-            Ok((force, _)) => {
-                for (i, f) in force.chunks_exact(3).enumerate() {
-                    loads.force.add(i, Vector3::new(f[0], f[1], f[2]));
-                }
-            }
-            Err(error) => self.note(error),
-        }
-    }
-
-    fn elements(&self) -> usize {
-        1
-    }
-
-    fn write_energies(&self, state: &State, energies: &mut [f64]) {
-        let Some(energy) = &self.energy else {
-            energies[0] = 0.0;
-            return;
-        };
-        let found = Python::attach(|py| {
-            let energy = energy
-                .bind(py)
-                .call1((rows(py, &state.points.position)?,))?;
-            energy.extract::<f64>()
-        });
-        match found {
-            Ok(energy) => energies[0] = energy,
-            Err(error) => self.note(error),
-        }
-    }
-
-    fn is_conservative(&self) -> bool {
-        self.energy.is_some()
-    }
 }

@@ -1,5 +1,7 @@
 """`System`: rods, points, fields, prescribed motion, steps and equilibria, with and without scenes."""
 
+import pickle
+
 import actin_filaments as af
 import numpy as np
 import pytest
@@ -339,3 +341,247 @@ def test_a_scene_by_hand_follows_its_path(motion):
         system.set_path(0.5)
     with pytest.raises(ValueError, match="clamp of the scene"):
         system.release([0])
+
+
+def well(bodies):
+    """Two points and a frame in harmonic wells, coupled."""
+    a, b = bodies.position
+    d = a - b - (1.0, 0.0, 0.0)
+    third = 2.0 * bodies.quaternion[0, 1:] * np.sign(bodies.quaternion[0, 0])
+    force = np.array([-3.0 * d - 2.0 * a, 3.0 * d - 2.0 * b])
+    energy = 1.5 * d @ d + a @ a + b @ b + 0.5 * third @ third
+    # The gradient of sum (2 q_i)^2 / 2 with respect to rotations.
+    q = bodies.quaternion[0]
+    torque = -np.sign(q[0]) * q[0] * third
+    return force, torque[None], float(energy)
+
+
+def wells(loads, **keys):
+    system = af.System()
+    beam = system.add_rod(
+        [(0, 0, 0), (1, 0, 0)], shear=(1e-9,) * 3, bend=(1e-9,) * 3, mass_per_length=1.0, area=1.0
+    )
+    assert beam.points == (0, 2)
+    system.position = [(0.3, 0.1, 0.0), (-0.2, 0.4, 0.6)]
+    system.add_loads(loads, **keys)
+    return system
+
+
+def test_loads_of_a_function_have_equilibria():
+    """With the stiffness of the function or with differences: a - b = 3/4 e_x at equal and opposite positions."""
+    identity = np.eye(3)
+    pairs = ([0, 1, 0, 2], [0, 1, 1, 2], [5 * identity, 5 * identity, -3 * identity, identity])
+
+    def with_stiffness(bodies):
+        force, torque, energy = well(bodies)
+        return af.Loads(force, torque, energy, pairs)
+
+    def without(bodies):
+        return af.Loads(*well(bodies))
+
+    for system in (wells(with_stiffness), wells(without, differences=True)):
+        assert system.equilibrium(force=1e-8, torque=1e-8).stable
+        # 3 (2 x - 1) + 2 x = 0
+        assert system.position == pytest.approx(np.array([(0.375, 0, 0), (-0.375, 0, 0)]), abs=1e-8)
+    with pytest.raises(ValueError, match="differences=True"):
+        wells(without).equilibrium()
+    with pytest.raises(ValueError, match="returns no energy"):
+        wells(lambda bodies: well(bodies)[0]).equilibrium()
+
+
+def test_differences_equal_the_stiffness_of_a_rod():
+    """A rod is relaxed next to a copy of its bending loads: a spring of points by differences."""
+    springs, field = af.System(), af.System()
+    for system in (springs, field):
+        system.add_points([(0, 0, 0), (1.0, 0, 0), (1.5, 1.0, 0)], 1.0)
+        system.hold([0])
+        system.add_weight((0, 0, -1.0))
+
+    def force(x):
+        d = np.diff(x, axis=0)
+        length = np.linalg.norm(d, axis=1, keepdims=True)
+        pull = 40.0 * (length - 1.0) * d / length
+        return np.concatenate([pull, [(0, 0, 0)]]) - np.concatenate([[(0, 0, 0)], pull])
+
+    def energy(x):
+        return float(20.0 * ((np.linalg.norm(np.diff(x, axis=0), axis=1) - 1.0) ** 2).sum())
+
+    springs.add_springs([(0, 1), (1, 2)], stiffness=40.0, rest_length=1.0)
+    field.add_field(force, energy, differences=True)
+    springs.equilibrium()
+    field.equilibrium()
+    assert field.position == pytest.approx(springs.position, abs=1e-6)
+    assert field.potential_energy == pytest.approx(springs.potential_energy, rel=1e-12)
+
+
+def test_loads_are_evaluated_once_for_each_state():
+    calls = []
+    system = af.System()
+    system.add_points([(1.0, 0, 0)], 1.0)
+
+    def spring(bodies):
+        calls.append(bodies.time)
+        x = bodies.position
+        return af.Loads(-x, energy=0.5 * float((x**2).sum()))
+
+    system.add_loads(spring)
+    system.step(10, h=0.01, scheme="position-verlet")
+    assert 10 <= len(calls) - 1 <= 12
+    before = len(calls)
+    assert system.potential_energy == pytest.approx(0.5 * system.position[0, 0] ** 2)
+    system.loads()
+    assert len(calls) - before <= 1
+
+
+def test_loads_may_depend_on_time_and_velocity():
+    """Stokes drag and a force in time: v = (1 - exp(-t)) for the force t e_x with m = drag = 1 gives v = t - 1 + exp(-t)."""
+    system = af.System()
+    system.add_points([(0, 0, 0)], 1.0)
+    system.add_loads(lambda bodies: (bodies.time, 0, 0) - bodies.velocity)
+    system.step(2000, h=1e-3, scheme="position-verlet")
+    t = system.time
+    # First order in the step, since the velocity is not symmetric in a kick.
+    assert system.velocity[0, 0] == pytest.approx(t - 1 + np.exp(-t), abs=2e-3)
+
+
+def test_compiled_loads_equal_the_function():
+    ctypes = pytest.importorskip("ctypes")
+    pointer = ctypes.POINTER(ctypes.c_double)
+
+    @ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_int64, ctypes.c_int64, ctypes.c_double, *[pointer] * 6)
+    def spring(n, m, time, position, velocity, quaternion, momentum, force, torque):
+        for i in range(3 * n):
+            force[i] = -position[i]
+        return 0.5 * sum(position[i] ** 2 for i in range(3 * n))
+
+    address = ctypes.cast(spring, ctypes.c_void_p).value
+    ends = []
+    for loads in (lambda b: af.Loads(-b.position, energy=0.5 * float((b.position**2).sum())),
+                  af.compiled(spring), af.compiled(address)):
+        system = af.System()
+        system.add_points([(1.0, 0.5, 0), (0, 0, 2.0)], 1.0)
+        system.add_loads(loads)
+        system.step(100, h=0.01)
+        ends.append(system.position)
+    assert np.array_equal(ends[1], ends[0]) and np.array_equal(ends[2], ends[0])
+
+
+def test_stiffness_of_other_shapes_is_refused():
+    def system(stiffness):
+        made = af.System()
+        made.add_points([(1.0, 0, 0)], 1.0)
+        return made.add_loads(lambda b: af.Loads(-b.position, energy=0.0, stiffness=stiffness))
+
+    for stiffness, match in (
+        (np.eye(3), "two lists"),
+        (([0], [0], np.eye(3)), r"shape \(1, 3, 3\)"),
+        (([0], [4], [np.eye(3)]), "block of body 4"),
+    ):
+        with pytest.raises(ValueError, match=match):
+            system(stiffness)
+
+
+def test_linkers_are_added_and_removed():
+    """A linker to a fixed point bends a cantilever by k d = 3 B / L^3 w; without the linker the rod is straight."""
+    system = af.System()
+    beam = rod(system, segments=16, length=80.0)
+    linker = system.add_linker((beam, 80.0), (80.0, 0.0, 4.0), stiffness=0.01)
+    system.equilibrium()
+    w = system.position[-1, 2]
+    compliance = 80.0**3 / (3 * BEND) + 80.0 / SHEAR
+    # The discretisation error is of order (h/L)^2, the geometric one of order (w/L)^2.
+    assert w == pytest.approx(4.0 * compliance / (compliance + 100.0), rel=1e-2)
+    assert set(system.energies()) >= {"linker"}
+    system.remove(linker)
+    assert "linker" not in system.energies()
+    system.equilibrium()
+    assert abs(system.position[-1, 2]) < 1e-6
+    with pytest.raises(KeyError, match="no springs"):
+        system.remove(linker)
+    with pytest.raises(ValueError, match="from 0 to 80"):
+        system.add_linker((beam, 81.0), (0, 0, 0), stiffness=1.0)
+    with pytest.raises(IndexError, match="no filament 0"):
+        system.add_linker((0, 1.0), (beam, 1.0), stiffness=1.0)
+
+
+def test_linkers_of_scenes_act_at_their_arc_length(scene):
+    """At a filament of a scene: monomers up to 40 nm, then a rod. The same as a linker of the scene."""
+    for at in (20.0, 100.0):
+        linker = {"at_nm": at, "anchor_nm": [10.0, 0.0, at], "stiffness_pn_per_nm": 0.5}
+        expected = af.equilibrium(scene.set("linkers", [linker]))
+        system = af.System.from_scene(scene)
+        system.add_linker((0, at), (10.0, 0.0, at), stiffness=0.5)
+        system.equilibrium()
+        assert np.abs(system.position - expected.position_nm).max() < 1e-6
+
+
+def test_copies_are_independent():
+    system, keys = gas()
+    system.step(10, **keys)
+    copy = system.copy()
+    system.step(10)
+    assert copy.steps == 10
+    copy.step(10)
+    assert np.array_equal(copy.position, system.position)
+    copy.apply_force(np.ones((500, 3)))
+    assert copy.loads()[0].max() == 1.0 and system.loads()[0].max() == 0.0
+
+
+def test_systems_of_scenes_are_pickled(motion):
+    system = af.System.from_scene(motion)
+    system.step(50)
+    system.set_factor(0, 0.5)
+    again = pickle.loads(pickle.dumps(system))
+    for other in (system, again):
+        other.step(50)
+    assert np.array_equal(again.position, system.position) and again.time == system.time
+    again.add_linker((0, 100.0), (0, 0, 0), stiffness=1.0)
+    with pytest.raises(TypeError, match="can be pickled"):
+        pickle.dumps(again)
+
+
+BROWNIAN = {"Brownian": {"duration_ms": 1e-3, "temperature_k": 298.0, "time_step_ns": 50.0, "seed": 3}}
+
+
+def water(temperature=298.0):
+    filament = {"sections": [{"Rod": {"from_nm": 0.0, "to_nm": 400.0, "segments": 10}}]}
+    task = {"Brownian": BROWNIAN["Brownian"] | {"temperature_k": temperature}}
+    return af.Scene(filament=filament, task=task)
+
+
+def test_a_scene_in_water_moves_as_its_run_does():
+    """Up to rounding in another order of unknowns; bitwise for a copy and a pickle."""
+    scene = water()
+    expected = af.run(scene)[-1].position_nm
+    system = af.System.from_scene(scene)
+    assert system.stable_step() > 0.0
+    system.step(7)
+    parts = [system, system.copy(), pickle.loads(pickle.dumps(system))]
+    for part in parts:
+        part.step(13)
+        assert np.array_equal(part.position, parts[0].position)
+        assert np.abs(part.position - expected).max() < 1e-9
+    with pytest.raises(ValueError, match="set in its task"):
+        system.step(1, seed=4)
+
+
+def test_loads_act_in_water():
+    """Forces along a filament move it as forces of a scene do, up to its strain of 1e-5: v = F / zeta."""
+    scene = water(temperature=0.0)
+    ends = [{"EndForce": {"end": end, "force_pn": [0.0, 0.0, 0.055]}} for end in ("Start", "End")]
+    expected = af.run(scene.set("loads", ends))[-1].position_nm[:, 2]
+    system = af.System.from_scene(scene)
+    start = system.position[:, 2]
+    push = np.zeros((11, 3))
+    push[:, 2] = 0.01
+    number = system.add_loads(lambda b: af.Loads(push, energy=-float((push * b.position).sum())), differences=True)
+    system.step(20)
+    moved = system.position[:, 2]
+    system.remove(number)
+    system.step(20)
+    assert (moved - start).min() > 0.1 and moved == pytest.approx(expected, abs=400 * 1e-5)
+    # The stretched filament relaxes, and its centre stays.
+    assert system.position[:, 2].mean() == pytest.approx(moved.mean(), abs=1e-3)
+    system.add_points([(0, 0, 0)], 1.0)
+    with pytest.raises(ValueError, match="no friction"):
+        system.step(1)

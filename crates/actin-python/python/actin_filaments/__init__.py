@@ -8,6 +8,7 @@ and fits accept any consistent units.
 from actin_filaments._actin import Progress, Rod, Scene, System, __version__, fit, fit_linear, run, trade
 from actin_filaments._equilibrium import equilibrium
 from actin_filaments._frame import Frame
+from actin_filaments._loads import Bodies, Loads, compiled
 from actin_filaments._page import Page
 from actin_filaments._sweep import Sweep, latin_hypercube, sweep
 from actin_filaments._trade import Trade
@@ -16,11 +17,13 @@ from actin_filaments.results import Certificate, Equilibrium, Fit, Run, load
 
 __all__ = [
     "ActinError",
+    "Bodies",
     "Certificate",
     "Equilibrium",
     "Fit",
     "Frame",
     "Interrupted",
+    "Loads",
     "Page",
     "Progress",
     "Rod",
@@ -33,6 +36,7 @@ __all__ = [
     "System",
     "Trade",
     "__version__",
+    "compiled",
     "equilibrium",
     "fit",
     "fit_linear",

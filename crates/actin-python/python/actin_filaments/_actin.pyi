@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Unpack
 
+from actin_filaments._loads import Bodies, Loads
 from actin_filaments._page import Page
 from actin_filaments._trade import Trade
 from actin_filaments.results import Certificate, Fit, Run
@@ -164,7 +165,7 @@ class System:
         """Creates the system of a scene in its initial state, with the method, time step, drag and noise of its task.
 
         In a motion, steps follow load factors over time and the path of the scene. For equilibria, `set_path` moves
-        along the path.
+        along the path. Steps of a `Brownian` scene have its fluid and its noise.
         """
     def add_points(self, position: ArrayLike, mass: ArrayLike) -> int:
         """Adds points `[k, 3]` at rest, with one mass for all or one each. Returns the index of the first."""
@@ -193,8 +194,22 @@ class System:
         - `rest_shape`: `"placed"` makes the given shape stress-free.
         - `rigid_segments`: adds the rotational inertia of rigid segments, which allows longer time steps.
         """
-    def add_springs(self, pairs: Sequence[Sequence[int]], stiffness: float, rest_length: float) -> None:
-        """Adds springs between pairs of points."""
+    def add_springs(self, pairs: Sequence[Sequence[int]], stiffness: float, rest_length: float) -> int:
+        """Adds springs between pairs of points. Returns a number for `remove`."""
+    def add_linker(
+        self,
+        place: tuple[Rod | int, float],
+        to: tuple[Rod | int, float] | ArrayLike,
+        *,
+        stiffness: float,
+        rest_length: float = 0.0,
+    ) -> int:
+        """Adds a linker: a spring between two places on axes of filaments, or between a place and a fixed point. Returns a
+        number for `remove`.
+
+        - `place`, `to`: `(rod, s)`, or `(index of a filament of the scene, s)` with the arc length `s`; `to` can also be
+          a fixed position `[3]`.
+        """
     def add_weight(self, acceleration: ArrayLike) -> int:
         """Adds the weight of all points. Returns the index of its factor."""
     def add_force(self, points: Sequence[int], force: ArrayLike) -> int:
@@ -203,8 +218,30 @@ class System:
         self,
         force: Callable[[_Array], ArrayLike],
         energy: Callable[[_Array], float] | None = None,
-    ) -> None:
-        """Adds forces on points as a function of all positions, `[n, 3]` to `[n, 3]`, and optionally their energy."""
+        *,
+        differences: bool = False,
+    ) -> int:
+        """Adds forces on points as a function of all positions, `[n, 3]` to `[n, 3]`, and optionally their energy.
+        Returns a number for `remove`.
+
+        - `differences`: as in `add_loads`.
+        """
+    def add_loads(self, function: Callable[[Bodies], Loads | ArrayLike], *, differences: bool = False) -> int:
+        """Adds the loads of `function(bodies)`, where `bodies` has `time`, `position`, `velocity`, `quaternion` and
+        `angular_momentum`. Returns a number for `remove`.
+
+        The function returns `Loads`, or an array of forces `[n, 3]`. It is called once for each evaluation of the loads:
+        once a step by position Verlet, four times by PEFRL, several times in an equilibrium or a `Brownian` step, which
+        require energy and stiffness. It is called here as well, with the present state.
+
+        - `differences`: computes a missing stiffness from differences of the loads, in six calls for each body.
+        """
+    def remove(self, number: int) -> None:
+        """Removes springs, a linker, a field or loads, by the number returned when they were added."""
+    def copy(self) -> System:
+        """Returns an independent copy in the present state. Functions of fields are shared."""
+    def __copy__(self) -> System: ...
+    def __deepcopy__(self, memo: dict[int, Any], /) -> System: ...
     def apply_force(self, force: ArrayLike) -> None:
         """Sets additional forces on points, `[n, 3]`, replacing those of earlier calls."""
     def apply_torque(self, torque: ArrayLike) -> None:
@@ -255,7 +292,7 @@ class System:
 
         Settings are kept for later calls. The default `h` is estimated again after bodies, terms or clamps have
         been added and after `scheme` has changed. `step(a)` and `step(b)` together equal `step(a + b)` bitwise.
-        Ctrl-C ends the steps.
+        Ctrl-C ends the steps. For a `Brownian` scene, `h` is the only setting: fluid and noise are those of the scene.
 
         Raises `RunFailed` if the motion diverges. The system then is in the last valid state, at `steps` and
         `time`.

@@ -167,6 +167,24 @@ fn check_length(wanted: f64, longest: Option<&LongestStep>) -> Result<(), SceneP
 }
 
 impl Estimate {
+    /// Creates the stepper of overdamped motion of the bodies of `assembly` with the interactions of
+    /// `system`, or `None` for other tasks.
+    ///
+    /// # Errors
+    /// If an interaction has no second derivatives.
+    pub fn overdamped_stepper(
+        &self,
+        assembly: &Assembly,
+        system: &System,
+    ) -> Option<Result<Brownian, SceneProblem>> {
+        let AnyTask::Brownian(task) = &assembly.scene.task else {
+            return None;
+        };
+        let layout = layout(assembly).map(Layout::with_links);
+        let stepper = layout.and_then(|l| self.stepper((assembly, task), system, l));
+        Some(stepper.map(|stepper| stepper.in_flow(flow(assembly, task))))
+    }
+
     /// Creates the stepper of overdamped motion for the free bodies of `layout` in a fluid at rest.
     ///
     /// # Errors
@@ -202,6 +220,18 @@ fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
         held[clamp.filament] = true;
     }
     held
+}
+
+/// Flow of the fluid, including the shear of a periodic box.
+fn flow(assembly: &Assembly, task: &Task) -> actin_brownian::Flow {
+    let driven = assembly.cell.map(|cell| {
+        let gradient = Vector3::x() * Vector3::z().transpose() * cell.strain;
+        (cell.factor, gradient)
+    });
+    actin_brownian::Flow {
+        driven,
+        ..physical_flow(&task.flow)
+    }
 }
 
 /// The flow of a scene in nm and ns.
@@ -243,14 +273,7 @@ pub(super) fn run(
     let mut recorder = Recorder::new(assembly, &motion, saved, clock, sink);
     // The order of unknowns follows the state as built, also for a resumed run.
     let mut stepper = estimate.stepper((assembly, task), &system, layout(assembly)?)?;
-    let driven = assembly.cell.map(|cell| {
-        let gradient = Vector3::x() * Vector3::z().transpose() * cell.strain;
-        (cell.factor, gradient)
-    });
-    stepper = stepper.in_flow(actin_brownian::Flow {
-        driven,
-        ..physical_flow(&task.flow)
-    });
+    stepper = stepper.in_flow(flow(assembly, task));
     // The method is not looked at: the stepper makes the steps.
     let run = Run::new(&POSITION_VERLET, estimate.time_step_ns, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))

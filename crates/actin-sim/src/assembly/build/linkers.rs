@@ -2,7 +2,7 @@
 
 use super::{Body, Builder, Strand};
 use crate::assembly::lattice::ResolvedSection;
-use crate::assembly::{Kinetics, Part, SiteTable};
+use crate::assembly::{Assembly, Kinetics, Part, SiteTable};
 use crate::scene::{self, LinkerSite, SceneProblem, path};
 use actin_cosserat::RodLayout;
 use actin_coupling::{
@@ -13,9 +13,6 @@ use actin_ellipsoid::Monomers;
 use actin_mechanics::{ControlId, Vector3};
 use std::collections::HashMap;
 use std::sync::Arc;
-
-/// Distance (nm) below which a site lies at a node, above the round-off of sums of lengths.
-const NODE_TOLERANCE_NM: f64 = 1e-9;
 
 /// Length (nm) below which a linker has no direction. Positions are rounded to about 1e-14 nm.
 const SHUT_NM: f64 = 1e-9;
@@ -200,12 +197,10 @@ impl Builder<'_> {
             Body::Rod(layout) => {
                 let nodes = nodes.of(strand.first_section + section, layout);
                 let from_start = s_nm - strand.resolved[section].from_nm;
-                let (segment, fraction) = on_segment(nodes, layout.segment_lengths(), from_start);
                 let place = RodPlace {
-                    segment,
-                    fraction,
                     radius: at.radius_nm,
                     azimuth,
+                    ..RodPlace::on_axis(layout, nodes, from_start)
                 };
                 Site::on_rod(layout, place)
             }
@@ -244,6 +239,42 @@ impl Builder<'_> {
     }
 }
 
+impl Assembly {
+    /// Site on the axis of a filament at an arc length (nm): on a rod or in the nearest monomer.
+    ///
+    /// # Errors
+    /// If the arc length is outside of the filament.
+    ///
+    /// # Panics
+    /// If there is no such filament.
+    pub fn axis_site(&self, filament: usize, s_nm: f64) -> Result<Site, SceneProblem> {
+        let span = &self.filaments[filament];
+        let sections = self.sections_of(filament);
+        let length = sections.last().map_or(0.0, |section| section.to_nm);
+        let refused = |rule: String| SceneProblem::new("at_nm", format!("{s_nm:?}"), rule);
+        if !(0.0..=length).contains(&s_nm) {
+            return Err(refused(format!("must be from 0 to {length:?}")));
+        }
+        let past = sections.partition_point(|section| section.to_nm < s_nm);
+        let section = span.sections.start + past.min(sections.len() - 1);
+        let site = if let Some(rod) = self.rods.iter().find(|rod| rod.section == section) {
+            let from_start = s_nm - self.sections[section].from_nm;
+            let place = RodPlace::on_axis(&rod.layout, &rod.layout.node_positions(), from_start);
+            Site::on_rod(&rod.layout, place)
+        } else {
+            let distance = |i: &usize| (self.points[*i].s_nm - s_nm).abs();
+            let monomers = self.sections[section].points.clone();
+            let monomers = monomers.filter_map(|i| Some((i, self.points[i].frame?)));
+            let nearest = monomers.min_by(|(i, _), (k, _)| distance(i).total_cmp(&distance(k)));
+            let (point, frame) = nearest.ok_or_else(|| refused("has no monomer".into()))?;
+            let arm = span.axis_place(s_nm) - self.rest.points.position.get(point);
+            let q = self.rest.frames.orientation.get(frame);
+            Site::on_monomer(point, frame, q.inverse_transform_vector(&arm))
+        };
+        site.map_err(|error| refused(error.to_string()))
+    }
+}
+
 /// Arc lengths of the nodes of rods with linkers, computed once per rod.
 #[derive(Default)]
 pub(super) struct Nodes(HashMap<usize, Vec<f64>>);
@@ -254,15 +285,6 @@ impl Nodes {
             .entry(section)
             .or_insert_with(|| layout.node_positions())
     }
-}
-
-/// Segment and share of its length at `s_nm` from the rod's start (nm). A node belongs to the
-/// segment before it.
-fn on_segment(nodes: &[f64], lengths: &[f64], s_nm: f64) -> (usize, f64) {
-    let is_past = |end: &f64| end + NODE_TOLERANCE_NM < s_nm;
-    let segment = nodes[1..].partition_point(is_past).min(lengths.len() - 1);
-    let share = (s_nm - nodes[segment]) / lengths[segment];
-    (segment, share.clamp(0.0, 1.0))
 }
 
 fn partition_point(count: usize, is_before: impl Fn(usize) -> bool) -> usize {
@@ -281,7 +303,7 @@ fn partition_point(count: usize, is_before: impl Fn(usize) -> bool) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Assembly, Scene};
+    use crate::Scene;
 
     fn sites(sections: &str, linkers: &str) -> (Assembly, Vec<Vector3>) {
         let text = format!(
