@@ -12,6 +12,9 @@ from actin_filaments._actin import Scene
 class Page:
     """Interactive page with the bodies, the curves and the summary. Notebooks show it; `save` writes it to a file."""
 
+    text: str
+    """Text of the HTML file."""
+
     def __init__(self, text: str) -> None:
         self.text = text
 

@@ -73,20 +73,25 @@ class Fit:
     """Result of a least-squares fit."""
 
     parameters: Array
+    """Fitted values."""
     errors: Array
     """Standard errors; NaN for parameters that are not determined by the data."""
     covariance: Array
+    """Covariance matrix of the parameters."""
     residuals: Array
     """Observations minus model."""
     statuses: list[str]
     """Status of each parameter: `Determined`, `Weak`, `Undetermined`, `AtLowerBound`, `AtUpperBound`, `Held`."""
     chi_squared: float
+    """Sum of squared residuals, each divided by its standard deviation."""
     degrees_of_freedom: int
+    """Number of observations minus the rank of the Jacobian."""
     condition: float
     """Condition number: largest amplification of relative errors of the data."""
     agreeing_starts: int
     """Number of starts that converged to the same minimum."""
     starts: int
+    """Number of starts."""
 
     def _repr_html_(self) -> str:
         rows = zip(self.parameters, self.errors, self.statuses)
