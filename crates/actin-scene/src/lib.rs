@@ -58,6 +58,7 @@ mod trace;
 mod tree;
 mod types;
 mod validate;
+mod yaml;
 
 pub use actin_cosserat::{
     CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist,

@@ -1,7 +1,8 @@
-//! Parser of RON and JSON. It continues after a mistake and finds further ones.
+//! Parser of RON and JSON, and choice of the format. It continues after a mistake and finds further ones.
 
 use super::position::without_mark;
 use super::tree::{Kind, SceneValue, Source, TextSpan};
+use super::yaml::{is_yaml, parse_yaml};
 
 /// Largest depth of brackets.
 pub(super) const MOST_DEPTH: usize = 128;
@@ -39,6 +40,16 @@ impl Brackets {
 /// Parses the text of a file; `file` is its kind for messages, such as `scene`.
 pub(super) fn parse(text: &str, file: &str) -> Parsed {
     let text = without_mark(text);
+    let mut parsed = if is_yaml(text) {
+        parse_yaml(text)
+    } else {
+        parse_ron_or_json(text, file)
+    };
+    parsed.root.remove_schema();
+    parsed
+}
+
+fn parse_ron_or_json(text: &str, file: &str) -> Parsed {
     let mut parser = Parser {
         text,
         at: 0,
@@ -86,7 +97,7 @@ pub(super) fn word(text: &str) -> &str {
     &text[..text.find(|c| !is_part(c)).unwrap_or(text.len())]
 }
 
-fn begins_with_key(rest: &str) -> bool {
+pub(super) fn begins_with_key(rest: &str) -> bool {
     let word = word(rest);
     let is_word = word.starts_with(|c: char| c.is_alphabetic() || c == '_');
     is_word && rest[word.len()..].trim_start().starts_with(':')
@@ -448,7 +459,7 @@ fn unescaped(c: char, rest: &mut impl Iterator<Item = (usize, char)>) -> Option<
     char::from_u32(u32::from_str_radix(&digits, 16).ok()?)
 }
 
-fn number(text: &str) -> usize {
+pub(super) fn number(text: &str) -> usize {
     let digits = |from: usize| {
         let rest = &text[from..];
         let end = rest.find(|c: char| !c.is_ascii_digit() && c != '_');
@@ -479,7 +490,7 @@ fn number(text: &str) -> usize {
     0
 }
 
-fn number_kind(text: &str) -> Kind {
+pub(super) fn number_kind(text: &str) -> Kind {
     let text = text.replace('_', "");
     let (sign, digits) = match text.strip_prefix('-') {
         Some(digits) => (-1, digits),

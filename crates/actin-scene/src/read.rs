@@ -40,10 +40,11 @@ impl Scene {
         })
     }
 
-    /// Reads and validates a scene. A byte-order mark is skipped. A text that begins with `{` is JSON.
+    /// Reads and validates a scene. A byte-order mark is skipped. A text that begins with `{` is JSON, and
+    /// a text that begins with a key is YAML.
     ///
     /// # Errors
-    /// Invalid RON or JSON, an unknown or missing key, or an invalid value, each with line and column.
+    /// Invalid RON, JSON or YAML, an unknown or missing key, or an invalid value, each with line and column.
     pub fn from_ron(text: &str) -> Result<Self, SceneError> {
         SceneText::new(text).scene()
     }
@@ -76,6 +77,7 @@ impl Scene {
     /// An unknown or missing key, a value of another type, or an invalid value.
     pub fn from_value(value: &SceneValue, folder: Option<&Path>) -> Result<Self, SceneProblem> {
         let mut value = value.clone();
+        value.remove_schema();
         if let Some(folder) = folder {
             trace::read_points(&mut value, folder)?;
         }

@@ -45,11 +45,12 @@ pub enum Kind {
     Removed,
 }
 
-/// Origin of a value. Values in memory and in JSON have strings for choices and lists for vectors.
+/// Origin of a value. Values in memory, in JSON and in YAML have strings for choices and lists for vectors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Source {
     #[default]
     Memory,
+    /// JSON or YAML.
     Json,
     Ron,
     Override(usize),
@@ -114,6 +115,13 @@ impl SceneValue {
     pub(crate) fn with_key(self, key: impl Into<String>) -> Self {
         let key = Some(key.into());
         Self { key, ..self }
+    }
+
+    /// Removes the key `$schema`, which editors read.
+    pub(crate) fn remove_schema(&mut self) {
+        if let Kind::Group(None, values) = &mut self.kind {
+            values.retain(|value| value.key() != Some("$schema"));
+        }
     }
 
     /// Returns the kind of the value.

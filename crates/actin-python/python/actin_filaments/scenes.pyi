@@ -31,7 +31,7 @@ _Interfaces: TypeAlias = Literal["Bonds"] | QuasiHarmonic | _Keys
 _JunctionWeight: TypeAlias = Literal["Shared", "Full"]
 _Load: TypeAlias = EndForce | Force | Couple | ForcePerLength | CouplePerLength | Acceleration | _Keys
 _Material: TypeAlias = Literal["Table4", "PrecedingPaper"] | Rigidities | _Keys
-_Observable: TypeAlias = Literal["Energies", "Network"] | Tip | EndReaction | ObservableLinker | Curvature | Twist | Strain | EndToEnd | Contour | Buckling | SquaredDisplacement | TangentCorrelation | _Keys
+_Observable: TypeAlias = Literal["Energies", "Network"] | Tip | EndReaction | ObservableLinker | Curvature | Twist | Strain | InternalLoad | EndToEnd | Contour | Buckling | SquaredDisplacement | TangentCorrelation | _Keys
 _Orientation: TypeAlias = Literal["Isotropic", "Planar", "Parallel", "Antiparallel"]
 _Pace: TypeAlias = Literal["Smooth", "Steady"]
 _Point: TypeAlias = Literal["Tip", "Centre"]
@@ -791,6 +791,25 @@ class Imperfection(Part):
         *,
         amplitude_nm: _Number,
         seed: _Whole,
+    ) -> None: ...
+
+class InternalLoad(Part):
+    """Internal load: force and moment that the part of the filament after a cross-section exerts on the part
+    before it, in the axes of the cross-section. At an arc length: `internal_load[0]_at_80nm_shear_x_pn`,
+    `_shear_y_pn`, `_tension_pn` (negative in compression), `_moment_x_pn_nm`, `_moment_y_pn_nm` (bending),
+    `_torque_pn_nm`. Without `at_nm`, extreme values along the filament and their arc lengths, such as
+    `internal_load[0]_largest_tension_pn` and `internal_load[0]_largest_tension_at_nm`: `largest_tension`,
+    `smallest_tension`, `largest_shear`, `largest_moment` (magnitudes), `largest_torque` (largest magnitude, with
+    sign).
+
+    - `at_nm`: Arc length; from 0 to the length of the filament. By default extreme values are reported. Default: None.
+    - `filament`: Index of the filament. Default: 0.
+    """
+    def __init__(
+        self,
+        *,
+        at_nm: _Number | None = ...,
+        filament: _Whole = ...,
     ) -> None: ...
 
 class JunctionModel(Part):
