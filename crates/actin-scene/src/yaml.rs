@@ -221,7 +221,8 @@ task:
             ("force_pn", "forc_pn", (12, 26), "force_pn"),
             (
                 "to_nm: 160.0",
-                "to_nm: -1.0", (8, 9),
+                "to_nm: -1.0",
+                (8, 9),
                 "must be greater than",
             ),
             ("end: Start", "end: Strat", (10, 10), "Start"),
@@ -235,7 +236,9 @@ task:
             let error = Scene::from_ron(&text).unwrap_err();
             let shown = format!("{to}: {error}");
             assert_eq!(error.line, place.0, "{shown}");
-            if place.1 > 0 { assert_eq!(error.column, place.1, "{shown}"); }
+            if place.1 > 0 {
+                assert_eq!(error.column, place.1, "{shown}");
+            }
             assert!(error.message.contains(message), "{shown}");
         }
         let two = "to_nm: 16o.0\nclamps: 3";

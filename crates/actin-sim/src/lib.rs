@@ -69,7 +69,7 @@ pub use run::{
     MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter, RecordSummary,
     Records, RecordsError, RelaxationTimes, ResolutionSwitch, Row, RunError, RunPosition,
     RunStatistics, SaddlePush, SavedRun, Sink, Slip, SolveReport, StableState, StableStates,
-    Status, StoredRecord, Trajectory, composition, near_equilibrium, solver,
+    Status, StepError, StoredRecord, Trajectory, composition, near_equilibrium, solver,
 };
 pub use summary::{
     AccuracySummary, EndReaction, EndReactions, EnergySummary, FilamentSummary, FollowingSummary,

@@ -44,6 +44,8 @@ pub(crate) const ENERGY_BALANCE: &str = "energy-balance";
 pub(crate) const LINKER_RATES: &str = "linker-rates";
 /// Time steps are longer than slow motion allows.
 pub(crate) const LONG_STEPS: &str = "long-steps";
+/// Energies differ in steps of half the length.
+pub(crate) const STEP_ERROR: &str = "step-error";
 /// Drag is strong within a time step.
 pub(crate) const STRONG_DRAG: &str = "strong-drag";
 /// Means cover fewer than two records.
@@ -51,7 +53,7 @@ pub(crate) const FEW_RECORDS: &str = "few-records";
 
 /// All codes.
 #[cfg(test)]
-pub(crate) const ALL: [&str; 24] = [
+pub(crate) const ALL: [&str; 25] = [
     LAW_RANGE,
     UNSTABLE_TWIST,
     MODEL_LIMIT,
@@ -74,6 +76,7 @@ pub(crate) const ALL: [&str; 24] = [
     ENERGY_BALANCE,
     LINKER_RATES,
     LONG_STEPS,
+    STEP_ERROR,
     STRONG_DRAG,
     FEW_RECORDS,
 ];

@@ -3,6 +3,7 @@
 use super::dynamics::{check_records, conclude};
 use super::recorder::Recorder;
 use super::sink::{Clock, SavedRun, Sink};
+use super::step_check::StepCheck;
 use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
@@ -272,8 +273,15 @@ pub(super) fn run(
     let mut system = assembly.system.in_state(assembly.system.state().clone());
     let mut recorder = Recorder::new(assembly, &motion, saved, clock, sink);
     // The order of unknowns follows the state as built, also for a resumed run.
-    let mut stepper = estimate.stepper((assembly, task), &system, layout(assembly)?)?;
-    stepper = stepper.in_flow(flow(assembly, task));
+    let new_stepper = |system: &System| {
+        let stepper = estimate.stepper((assembly, task), system, layout(assembly)?)?;
+        Ok::<_, SceneProblem>(stepper.in_flow(flow(assembly, task)))
+    };
+    let mut stepper = new_stepper(&system)?;
+    let mut compared = system.in_state(system.state().clone());
+    recorder.drive(&mut compared);
+    let compared = (compared, new_stepper(&system)?);
+    recorder.step_check = Some(StepCheck::new(assembly, estimate, compared));
     // The method is not looked at: the stepper makes the steps.
     let run = Run::new(&POSITION_VERLET, estimate.time_step_ns, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))

@@ -19,6 +19,7 @@ mod sink;
 mod slip;
 mod start;
 mod states;
+mod step_check;
 mod steps;
 mod unknowns;
 
@@ -42,6 +43,7 @@ pub use sink::{
 pub use slip::Slip;
 pub use start::near_equilibrium;
 pub use states::{StableState, StableStates};
+pub use step_check::StepError;
 pub use steps::LongestStep;
 pub use unknowns::newton as solver;
 pub(crate) use unknowns::order;

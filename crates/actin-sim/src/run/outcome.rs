@@ -1,7 +1,7 @@
 //! Outcome of a run: status, cost, warnings and failures.
 
 use super::record_stream::StateWarnings;
-use super::{EquilibriumReport, HingeSlip, SaddlePush, Slip};
+use super::{EquilibriumReport, HingeSlip, SaddlePush, Slip, StepError};
 use crate::notes::Note;
 use crate::scene::SceneProblem;
 use crate::trade::{ModelError, Scatter};
@@ -63,6 +63,8 @@ pub struct Outcome {
     pub beyond_range: Vec<LawExtrapolation>,
     /// Segments with unstable twist, worst over all records; empty in a heat bath.
     pub unstable_twist: Vec<UnstableTwist>,
+    /// Terms whose mean energy differs in steps of half the length.
+    pub step_errors: Vec<StepError>,
     /// Warnings of its plan.
     pub plan_notes: Vec<Note>,
     /// Message of the failure, or empty.
@@ -91,6 +93,7 @@ impl Outcome {
             beyond_use: Vec::new(),
             beyond_range: Vec::new(),
             unstable_twist: Vec::new(),
+            step_errors: Vec::new(),
             plan_notes: Vec::new(),
             failure: String::new(),
             wall_s,
@@ -102,11 +105,14 @@ impl Outcome {
             beyond_use,
             beyond_range,
             unstable_twist,
+            steps,
         } = remarks;
+        let time_step_ns = self.time_step_ns.unwrap_or_default();
         Self {
             beyond_use,
             beyond_range,
             unstable_twist,
+            step_errors: steps.errors(time_step_ns),
             ..self
         }
     }

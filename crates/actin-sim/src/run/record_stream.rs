@@ -2,6 +2,7 @@
 
 use super::hinge::slip_between;
 use super::slip::{LinkWatch, TurnLoss};
+use super::step_check::StepComparisons;
 use super::{At, Progress, Record, RunPosition, Sink};
 use crate::assembly::{RangeWatch, TwistRecords, worst_of};
 use crate::observe::{Memory, View};
@@ -28,6 +29,7 @@ pub struct RunStatistics {
     ranges: RangeWatch,
     twist: TwistRecords,
     observed: Memory,
+    pub(super) steps: StepComparisons,
 }
 
 #[derive(Debug)]
@@ -35,6 +37,7 @@ pub(super) struct StateWarnings {
     pub(super) beyond_use: Vec<ModelLimitExceeded>,
     pub(super) beyond_range: Vec<LawExtrapolation>,
     pub(super) unstable_twist: Vec<UnstableTwist>,
+    pub(super) steps: StepComparisons,
 }
 
 impl RecordSummary {
@@ -53,6 +56,7 @@ impl RecordSummary {
                 ranges: RangeWatch::new(assembly),
                 twist: TwistRecords::new(assembly),
                 observed: assembly.observers.memory(),
+                steps: StepComparisons::default(),
             },
             last: None,
         }
@@ -163,6 +167,10 @@ impl<'a> RecordStream<'a> {
         self.recorded.last.as_ref()
     }
 
+    pub(super) fn step_comparisons(&mut self) -> &mut StepComparisons {
+        &mut self.recorded.carried.steps
+    }
+
     pub(super) fn recorded(&self) -> &RecordSummary {
         &self.recorded
     }
@@ -185,6 +193,7 @@ impl<'a> RecordStream<'a> {
             beyond_use: carried.beyond_use,
             beyond_range: carried.ranges.end(self.assembly),
             unstable_twist: carried.twist.end(),
+            steps: carried.steps,
         }
     }
 

@@ -5,6 +5,7 @@ use super::record_stream::RecordStream;
 use super::rest::{RestJudge, SaddlePush, is_saddle};
 use super::sink::{Clock, MotionPosition, ResolutionSwitch, SavedRun};
 use super::slip::TurnLoss;
+use super::step_check::StepCheck;
 use super::{At, Progress, Record, RecordSummary, Row, RunPosition, Sink};
 use crate::assembly::{Log, Ramp};
 use crate::scene::{Dynamics, Task};
@@ -43,6 +44,8 @@ pub(super) struct Recorder<'a> {
     /// Largest kinetic energy at a check (pN nm), set at the end.
     pub(super) largest_kinetic_pn_nm: f64,
     pub(super) behind_switch: Option<ResolutionSwitch>,
+    /// Comparison with shorter steps.
+    pub(super) step_check: Option<StepCheck<'a>>,
     /// Steps between queries whether to leave the motion.
     look_every: u64,
 }
@@ -108,6 +111,7 @@ impl<'a> Recorder<'a> {
                 _ => DEFAULT_CHECK_EVERY,
             },
             largest_kinetic_pn_nm: 0.0,
+            step_check: None,
         }
     }
 
@@ -291,6 +295,9 @@ impl Observer for Recorder<'_> {
 
     fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
         self.look_at_hinges()?;
+        if let Some(check) = &mut self.step_check {
+            check.compare(pause.state(), pause.step, self.taken.step_comparisons());
+        }
         if self.is_behind {
             // Only saddles are left without their record; a heat bath has none.
             let recorded = self.judge.as_ref().map(|_| self.taken.recorded().clone());

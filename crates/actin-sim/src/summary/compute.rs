@@ -73,6 +73,7 @@ impl Summary {
             warnings: notes.into_iter().filter(|n| n.code.is_some()).collect(),
             beyond_range: assembly.beyond_range_over([&last.state]),
             unstable_twist: assembly.unstable_twist_over([&last.state]),
+            step_errors: outcome.step_errors.clone(),
             beyond_use: outcome.beyond_use.clone(),
             linkers: LinkerSummary::all(assembly, &last.state),
             observables: Averages::of_one(assembly, last),

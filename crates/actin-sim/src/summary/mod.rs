@@ -25,7 +25,7 @@ use crate::notes::Note;
 use crate::trade::{ModelError, Scatter, SectionChoice};
 use crate::{
     Assembly, Counts, LawExtrapolation, ModelLimitExceeded, ObservableSummary, Outcome, SaddlePush,
-    Status, UnstableTwist,
+    Status, StepError, UnstableTwist,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -98,6 +98,9 @@ pub struct Summary {
     /// The worst of all records for a run, otherwise of the last record.
     #[serde(default)]
     pub unstable_twist: Vec<UnstableTwist>,
+    /// Terms whose mean energy differs in steps of half the length.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub step_errors: Vec<StepError>,
     /// Linkers, in the order of the scene.
     #[serde(default)]
     pub linkers: Vec<LinkerSummary>,

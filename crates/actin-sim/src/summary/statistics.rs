@@ -41,6 +41,7 @@ impl<'a> RecordStatistics<'a> {
         Summary {
             beyond_range: outcome.beyond_range.clone(),
             unstable_twist: outcome.unstable_twist.clone(),
+            step_errors: outcome.step_errors.clone(),
             observables: self.averages.end(),
             thermal: ThermalSummary::new(self.assembly, &self.kinetic),
             ..Summary::without_derived_warnings(self.assembly, last, outcome)

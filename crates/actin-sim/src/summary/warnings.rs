@@ -3,9 +3,10 @@
 use super::{Status, Summary};
 use crate::notes::{Note, codes};
 
-const DERIVED: [&str; 6] = [
+const DERIVED: [&str; 7] = [
     codes::LAW_RANGE,
     codes::UNSTABLE_TWIST,
+    codes::STEP_ERROR,
     codes::MODEL_LIMIT,
     codes::SADDLE,
     codes::OTHER_STATES,
@@ -43,8 +44,19 @@ impl Summary {
         self
     }
 
+    /// Warnings about laws, twist and time steps.
+    fn listed_warnings(&self) -> Vec<Note> {
+        let ranges = self.beyond_range.iter().map(ToString::to_string);
+        let twist = self.unstable_twist.iter().map(ToString::to_string);
+        let steps = self.step_errors.iter().map(ToString::to_string);
+        let ranges = ranges.map(|text| Note::warning(codes::LAW_RANGE, text));
+        let twist = twist.map(|text| Note::warning(codes::UNSTABLE_TWIST, text));
+        let steps = steps.map(|text| Note::warning(codes::STEP_ERROR, text));
+        ranges.chain(twist).chain(steps).collect()
+    }
+
     fn derived_warnings(&self) -> Vec<Note> {
-        let mut all = Vec::new();
+        let mut all = self.listed_warnings();
         let mut add = |code, text: String| all.push(Note::warning(code, text));
         if let Some(floor) = &self.residual_floor {
             let (force, torque) = (floor.force_pn, floor.torque_pn_nm);
@@ -52,12 +64,6 @@ impl Summary {
                 "the tolerance is below round-off; the residual is limited to about {force:.1e} pN, {torque:.1e} pN nm"
             );
             add(codes::RESIDUAL_FLOOR, text);
-        }
-        for beyond in &self.beyond_range {
-            add(codes::LAW_RANGE, beyond.to_string());
-        }
-        for unstable in &self.unstable_twist {
-            add(codes::UNSTABLE_TWIST, unstable.to_string());
         }
         // The failure of a run already names exceeded limits and saddles.
         if self.status != Status::Failed {
