@@ -47,7 +47,7 @@ mod _actin {
     #[pymodule_export]
     use crate::scene::Scene;
     #[pymodule_export]
-    use crate::sweep::carry_out;
+    use crate::sweep::{carry_out, emit_snakemake};
     #[pymodule_export]
     use crate::system::System;
     #[pymodule_export]

@@ -29,22 +29,17 @@ fn refused(py: Python<'_>, error: &SweepError) -> PyErr {
     }
 }
 
-/// Makes the runs of a sweep in a directory. Returns the numbers of runs and of failed runs.
-#[pyfunction]
-#[pyo3(signature = (scene, out, vary, results, samples, first_seed, jobs, resume, progress))]
-#[expect(clippy::too_many_arguments, reason = "called by the package alone")]
-pub(crate) fn carry_out(
+/// Values of keys that are varied together.
+type Varied = (Vec<String>, Vec<Vec<String>>);
+
+/// Validates a sweep and creates its directory.
+fn open(
     py: Python<'_>,
     scene: &Bound<'_, Scene>,
-    out: PathBuf,
-    vary: Vec<(Vec<String>, Vec<Vec<String>>)>,
-    results: Vec<String>,
-    samples: usize,
-    first_seed: u64,
-    jobs: Option<NonZeroUsize>,
-    resume: bool,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<(usize, usize)> {
+    (vary, results): (Vec<Varied>, Vec<String>),
+    (samples, first_seed): (usize, u64),
+    (out, resume): (PathBuf, bool),
+) -> PyResult<(SweepDirectory, ValidatedSweep)> {
     let scene = scene.get();
     let axis = |(keys, rows): (Vec<String>, Vec<Vec<String>>)| Axis::Rows {
         keys,
@@ -69,6 +64,46 @@ pub(crate) fn carry_out(
     let opened = opened.map_err(|problem| errors::problem(py, &problem))?;
     let directory = SweepDirectory::create(&out, &opened, resume);
     let directory = directory.map_err(|error| refused(py, &error))?;
+    Ok((directory, opened))
+}
+
+/// Writes a sweep with a Snakemake workflow into a directory. Returns the number of runs.
+#[pyfunction]
+pub(crate) fn emit_snakemake(
+    py: Python<'_>,
+    scene: &Bound<'_, Scene>,
+    out: PathBuf,
+    vary: Vec<Varied>,
+    results: Vec<String>,
+    samples: usize,
+    first_seed: u64,
+) -> PyResult<usize> {
+    let seeds = (samples, first_seed);
+    let (directory, opened) = open(py, scene, (vary, results), seeds, (out, true))?;
+    let cost = py.detach(|| opened.estimate_cost(usize::MAX));
+    let written = directory.write_snakemake(&opened, &cost);
+    written.map_err(|error| refused(py, &error))?;
+    Ok(opened.design.len())
+}
+
+/// Makes the runs of a sweep in a directory. Returns the numbers of runs and of failed runs.
+#[pyfunction]
+#[pyo3(signature = (scene, out, vary, results, samples, first_seed, jobs, resume, progress))]
+#[expect(clippy::too_many_arguments, reason = "called by the package alone")]
+pub(crate) fn carry_out(
+    py: Python<'_>,
+    scene: &Bound<'_, Scene>,
+    out: PathBuf,
+    vary: Vec<Varied>,
+    results: Vec<String>,
+    samples: usize,
+    first_seed: u64,
+    jobs: Option<NonZeroUsize>,
+    resume: bool,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(usize, usize)> {
+    let seeds = (samples, first_seed);
+    let (directory, opened) = open(py, scene, (vary, results), seeds, (out, resume))?;
     let interrupted = Arc::new(AtomicBool::new(false));
     let settings = Settings {
         jobs,

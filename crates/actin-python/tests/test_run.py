@@ -307,3 +307,12 @@ def test_warnings_are_reported_everywhere(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert af.run(turned(150.0)).warnings == []
+
+
+def test_a_sweep_is_a_workflow(scene, tmp_path):
+    """The workflow has a job for each run; the sweep continues in its directory."""
+    vary, results = {"loads[0].force_pn[0]": [-1.0, -2.0]}, ["tip_nm[0]"]
+    assert af.snakemake(scene, vary, results, tmp_path / "flow") == 2
+    assert "rule table" in (tmp_path / "flow" / "Snakefile").read_text()
+    table = af.sweep(scene, vary, results, out=tmp_path / "flow", resume=True)
+    assert len(table) == 2 and table.failed == 0

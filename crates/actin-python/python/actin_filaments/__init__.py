@@ -10,7 +10,7 @@ from actin_filaments._equilibrium import equilibrium
 from actin_filaments._frame import Frame
 from actin_filaments._loads import Bodies, Loads, compiled
 from actin_filaments._page import Page
-from actin_filaments._sweep import Sweep, latin_hypercube, sweep
+from actin_filaments._sweep import Sweep, latin_hypercube, snakemake, sweep
 from actin_filaments._trade import Trade
 from actin_filaments.errors import ActinError, Interrupted, RunFailed, RunWarning, SceneError
 from actin_filaments.results import Certificate, Equilibrium, Fit, Run, load
@@ -43,6 +43,7 @@ __all__ = [
     "latin_hypercube",
     "load",
     "run",
+    "snakemake",
     "sweep",
     "trade",
 ]

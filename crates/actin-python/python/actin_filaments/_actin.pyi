@@ -22,6 +22,7 @@ __all__ = [
     "System",
     "__version__",
     "carry_out",
+    "emit_snakemake",
     "export",
     "fit",
     "fit_linear",
@@ -412,6 +413,16 @@ def carry_out(
     progress: Callable[[Progress], object] | bool | None,
 ) -> tuple[int, int]:
     """Makes the runs of a sweep in a directory. Returns the numbers of runs and of failed runs."""
+
+def emit_snakemake(
+    scene: Scene,
+    out: _Path,
+    vary: Sequence[tuple[Sequence[str], Sequence[Sequence[str]]]],
+    results: Sequence[str],
+    samples: int,
+    first_seed: int,
+) -> int:
+    """Writes a sweep with a Snakemake workflow into a directory. Returns the number of runs."""
 
 def fit(
     function: Callable[[Any, _Array], ArrayLike],

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from actin_filaments import _html
-from actin_filaments._actin import Progress, Scene, carry_out
+from actin_filaments._actin import Progress, Scene, carry_out, emit_snakemake
 from actin_filaments._optional import required
 from actin_filaments.results import Run, load
 
@@ -151,6 +151,23 @@ def sweep(
     columns = {name: _column([row[k] for row in rows]) for k, name in enumerate(names)}
     parameters = [key for keys, _ in axes for key in keys] + (["seed"] if samples else [])
     return Sweep(columns, parameters, failed, folder, kept)
+
+
+def snakemake(
+    scene: Scene,
+    vary: Mapping[str | tuple[str, ...], Iterable[object]],
+    results: Iterable[str],
+    out: str | os.PathLike[str],
+    *,
+    samples: int = 0,
+    first_seed: int = 1,
+) -> int:
+    """Writes the sweep of `sweep` as a Snakemake workflow for a cluster into the directory `out`. Returns the number of runs.
+
+    `snakemake --cores all` in `out` makes the runs with the program `actin`; `sweep(..., out=out, resume=True)` reads them.
+    """
+    axes = [_axis(keys, values) for keys, values in vary.items()]
+    return emit_snakemake(scene, Path(out), axes, list(results), samples, first_seed)
 
 
 def _column(values: list[str]) -> NDArray[Any]:
