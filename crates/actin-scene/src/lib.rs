@@ -63,6 +63,7 @@ pub use actin_cosserat::{
     CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist,
     TwistRise, TwistStretch as TwistStretchLaw,
 };
+pub use actin_coupling::repulsion::Side;
 pub use adaptive_resolution::{AdaptiveResolution, RefinementCriterion};
 pub(crate) use arrangement::Arrangement;
 pub use brownian::{Brownian, Fluid, Interfaces, Water};
@@ -88,7 +89,7 @@ pub use periodic::PeriodicBox;
 pub use place::ClampedEnds;
 pub use problem::{SceneError, SceneProblem};
 pub use read::{ParseReport, read_all, read_ron, to_ron};
-pub use repulsion::{Plane, Repulsion, Sphere, SphereSide};
+pub use repulsion::{Cuboid, Cylinder, Plane, Repulsion, Sphere, WallName};
 #[cfg(feature = "schema")]
 pub use schema::schema;
 pub use section::{MonomerChanges, RodChanges, Section};

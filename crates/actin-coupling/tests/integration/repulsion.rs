@@ -82,20 +82,18 @@ fn contacts_have_a_gradient_and_conserve_momentum() {
 #[test]
 fn walls_are_the_gradient_of_their_energy() {
     let (state, capsules) = tangle();
-    let plane = Wall::Plane {
-        point: Vector3::y() * -1.0,
-        normal: Vector3::new(0.2, 2.0, 0.1),
-    };
-    let sphere = |radius, side| Wall::Sphere {
-        centre: Vector3::new(1.0, 22.0, 2.0),
-        radius,
-        side,
-    };
+    let centre = Vector3::new(1.0, 22.0, 2.0);
+    let sphere = |radius, side| Wall::sphere(centre, radius, side);
+    let axis = Vector3::new(1.0, 0.1, 0.4);
+    let cylinder = |radius, side| Wall::cylinder(centre, axis, radius, side);
     for wall in [
-        plane,
+        Wall::plane(Vector3::y() * -1.0, Vector3::new(0.2, 2.0, 0.1)),
         sphere(15.0, Side::Outside),
         sphere(23.0, Side::Inside),
+        cylinder(15.0, Side::Outside),
+        cylinder(23.0, Side::Inside),
     ] {
+        let wall = wall.unwrap();
         let contact = WallContact::new(capsules.clone(), wall, RADIUS, STIFFNESS).unwrap();
         assert!(contact.energy(&state) > 1.0, "{wall:?}: no contact");
         assert_is_gradient(&contact, &state, 1e-3, 1e-8);
@@ -286,20 +284,25 @@ fn invalid_numbers_are_refused() {
         })),
         "apart"
     );
-    let wall = |wall| WallContact::new(Vec::new(), wall, RADIUS, STIFFNESS).map(drop);
-    let plane = |normal| Wall::Plane {
-        point: Vector3::zeros(),
-        normal,
-    };
-    assert_eq!(key(wall(plane(Vector3::zeros()))), "normal");
-    assert!(wall(plane(Vector3::x() * 1e-200)).is_ok());
-    let sphere = |radius, side| Wall::Sphere {
-        centre: Vector3::zeros(),
-        radius,
-        side,
-    };
-    assert_eq!(key(wall(sphere(3.0, Side::Inside))), "radius of a sphere");
-    assert!(wall(sphere(3.0, Side::Outside)).is_ok());
+    let contact = |wall| WallContact::new(Vec::new(), wall, RADIUS, STIFFNESS).map(drop);
+    let (zero, z) = (Vector3::zeros(), Vector3::z());
+    let plane = |point, normal| Wall::plane(point, normal).map(drop);
+    assert_eq!(key(plane(zero, zero)), "normal");
+    assert_eq!(key(plane(z / 0.0, z)), "point of a wall");
+    assert!(plane(zero, z * 1e-200).is_ok());
+    assert_eq!(
+        key(Wall::cylinder(zero, zero, 9.0, Side::Inside).map(drop)),
+        "axis"
+    );
+    for wall in [
+        |radius, side| Wall::sphere(Vector3::zeros(), radius, side),
+        |radius, side| Wall::cylinder(Vector3::zeros(), Vector3::x(), radius, side),
+    ] {
+        assert_eq!(key(wall(-1.0, Side::Outside).map(drop)), "radius of a wall");
+        let of = |side| contact(wall(3.0, side).unwrap());
+        assert_eq!(key(of(Side::Inside)), "radius of a wall");
+        assert!(of(Side::Outside).is_ok());
+    }
 }
 
 #[test]
@@ -329,15 +332,17 @@ fn crossings_are_detected() {
         }
     }
     assert!(!told(&above, &above));
-    let sphere = Wall::Sphere {
-        centre: Vector3::new(1.0, 4.0, 0.0),
-        radius: 2.0,
-        side: Side::Outside,
-    };
-    let wall = WallContact::new(capsules, sphere, RADIUS, STIFFNESS).unwrap();
-    // Through the sphere, whose centre is 1 nm off the axis, and past it.
-    for (aside, passes) in [(0.0, true), (100.0, false)] {
-        let [above, below] = [5.0, -5.0].map(|height| crossing(height, aside).0);
-        assert_eq!(wall.passes_through(&above, &below).is_some(), passes);
+    let centre = Vector3::new(1.0, 4.0, 0.0);
+    // Through the wall, whose axis is 1 nm off or crosses, and past it.
+    for wall in [
+        Wall::sphere(centre, 2.0, Side::Outside),
+        Wall::cylinder(centre, Vector3::x(), 2.0, Side::Outside),
+    ] {
+        let wall = wall.unwrap();
+        let wall = WallContact::new(capsules.clone(), wall, RADIUS, STIFFNESS).unwrap();
+        for (aside, passes) in [(0.0, true), (100.0, false)] {
+            let [above, below] = [5.0, -5.0].map(|height| crossing(height, aside).0);
+            assert_eq!(wall.passes_through(&above, &below).is_some(), passes);
+        }
     }
 }

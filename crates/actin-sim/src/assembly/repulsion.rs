@@ -82,7 +82,7 @@ impl SurfaceGap {
             _ => format!("filament {filament}"),
         };
         match self.part {
-            Part::Plane(_) | Part::Sphere(_) => {
+            Part::Wall(_) => {
                 format!(
                     "{} penetrates this wall by {depth:.2} nm at s = {s:.2} nm",
                     name(a)

@@ -297,7 +297,7 @@ fn is_internal(assembly: &Assembly, part: Part) -> bool {
     match part {
         Part::Section(_) | Part::Junction(_) | Part::Contacts => true,
         Part::Linker(linker) => assembly.scene.linkers[linker].to.is_some(),
-        Part::Load(_) | Part::Clamp(_) | Part::Plane(_) | Part::Sphere(_) => false,
+        Part::Load(_) | Part::Clamp(_) | Part::Wall(_) => false,
     }
 }
 

@@ -3,13 +3,12 @@
 use super::{Body, Builder, Strand};
 use crate::assembly::Part;
 use crate::assembly::repulsion::{RepulsionModel, SurfaceGap};
-use crate::scene::{Repulsion, SceneProblem, SphereSide};
+use crate::scene::SceneProblem;
 use actin_cosserat::RodLayout;
 use actin_coupling::repulsion::{
-    Axis, Capsule, ContactParameters, Contacts, RepulsionError, Side, Wall, WallContact,
+    Axis, Capsule, ContactParameters, Contacts, RepulsionError, WallContact,
 };
 use actin_ellipsoid::Monomers;
-use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
 impl Builder<'_> {
@@ -39,7 +38,8 @@ impl Builder<'_> {
                 .push_term(Box::new(contacts.clone()), Part::Contacts);
         }
         let mut walls = Vec::new();
-        for (part, wall) in walls_of(repulsion) {
+        for (name, wall) in repulsion.walls().map_err(refused)? {
+            let part = Part::Wall(name);
             let wall =
                 WallContact::new(capsules.clone(), wall, radius, stiffness).map_err(refused)?;
             self.stock.push_term(Box::new(wall.clone()), part);
@@ -61,8 +61,7 @@ impl Builder<'_> {
 
     fn built_into(&self, touching: &SurfaceGap, radius: f64) -> SceneProblem {
         let key = match touching.part {
-            Part::Plane(i) => format!("repulsion.planes[{i}]"),
-            Part::Sphere(i) => format!("repulsion.spheres[{i}]"),
+            Part::Wall(name) => name.key(),
             _ => "repulsion.radius_nm".to_owned(),
         };
         let value = match touching.part {
@@ -131,26 +130,4 @@ fn segments(
         )
     };
     lengths.map(capsule).collect()
-}
-
-fn walls_of(repulsion: &Repulsion) -> Vec<(Part, Wall)> {
-    let planes = repulsion.planes.iter().enumerate().map(|(i, plane)| {
-        let wall = Wall::Plane {
-            point: Vector3::from(plane.at_nm),
-            normal: Vector3::from(plane.normal),
-        };
-        (Part::Plane(i), wall)
-    });
-    let spheres = repulsion.spheres.iter().enumerate().map(|(i, sphere)| {
-        let wall = Wall::Sphere {
-            centre: Vector3::from(sphere.at_nm),
-            radius: sphere.radius_nm,
-            side: match sphere.side {
-                SphereSide::Inside => Side::Inside,
-                SphereSide::Outside => Side::Outside,
-            },
-        };
-        (Part::Sphere(i), wall)
-    });
-    planes.chain(spheres).collect()
 }
