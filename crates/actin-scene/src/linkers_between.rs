@@ -432,6 +432,53 @@ mod tests {
         assert!(refused.contains("arrangements[0].apart_nm"), "{refused}");
     }
 
+    /// Without walls, filaments of 300 nm extend beyond a cylinder of radius 100 nm.
+    #[test]
+    fn random_filaments_are_within_walls() {
+        let text = |walls: &str| {
+            format!(
+                "Scene(
+                    arrangements: [Random(
+                        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 300.0)]),
+                        count: 30, box_nm: (200.0, 200.0, 400.0), seed: 3,
+                    )],
+                    repulsion: Repulsion({walls}),
+                    task: Brownian(duration_ms: 0.001, temperature_k: 298.0, seed: 1),
+                )"
+            )
+        };
+        let from_axis = |walls: &str| {
+            let scene = Scene::from_ron(&text(walls)).expect("the scene is valid");
+            let ends = scene
+                .filaments()
+                .flat_map(|one| [0.0, 300.0].map(|s| one.place_at(s)));
+            let distances: Vec<f64> = ends.map(|x| x.x.hypot(x.y)).collect();
+            [f64::min, f64::max].map(|of| distances.iter().copied().reduce(of).expect("filaments"))
+        };
+        let cylinder = |radius: f64, side: &str| {
+            format!(
+                "cylinders: [(at_nm: (0.0, 0.0, 5.0), axis: (0.0, 0.0, 3.0), radius_nm: {radius:?}, side: {side})]"
+            )
+        };
+        assert!(from_axis("")[1] > 150.0);
+        let inside = from_axis(&cylinder(100.0, "Inside"))[1];
+        assert!((80.0..=96.3).contains(&inside), "{inside}");
+        let outside = from_axis(&cylinder(50.0, "Outside"))[0];
+        assert!((53.7..80.0).contains(&outside), "{outside}");
+        let refused = Scene::from_ron(&text(
+            "cuboids: [(at_nm: (0.0, 0.0, 0.0), size_nm: (90.0, 90.0, 90.0))]",
+        ));
+        let refused = refused.expect_err("no room").to_string();
+        assert!(refused.contains("arrangements[0].box_nm"), "{refused}");
+        let refused = Scene::from_ron(&text(&cylinder(-1.0, "Inside"))).expect_err("radius");
+        assert!(
+            refused
+                .to_string()
+                .contains("repulsion.cylinders[0].radius_nm"),
+            "{refused}"
+        );
+    }
+
     #[test]
     fn bundles_are_hexagonal() {
         let scene = Scene::from_ron(

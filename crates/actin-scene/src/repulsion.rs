@@ -155,6 +155,17 @@ impl Repulsion {
         }
     }
 
+    /// Checks all numbers.
+    pub(super) fn first_problem(&self) -> Result<(), SceneProblem> {
+        let mut first = Ok(());
+        self.check(&mut |result| {
+            if first.is_ok() {
+                first = result;
+            }
+        });
+        first
+    }
+
     fn check(&self, note: &mut impl FnMut(Result<(), SceneProblem>)) {
         if !self.filaments && !self.has_walls() {
             let rule = "repulsion has no effect: write planes, spheres, cylinders or cuboids, or omit this key";

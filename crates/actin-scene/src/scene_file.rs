@@ -109,12 +109,12 @@ impl TryFrom<SceneFile> for Scene {
 /// Appends the arranged filaments.
 fn arrange(written: &SceneFile, filaments: &mut Vec<Filament>) -> Result<(), SceneProblem> {
     let repulsion = written.repulsion.as_ref();
-    let contact = repulsion.map_or(0.0, Repulsion::contact_nm);
     for (k, arrangement) in written.arrangements.iter().enumerate() {
         let mut one = arrangement.filament().clone();
         one.monomers.resolve();
+        repulsion.map_or(Ok(()), Repulsion::first_problem)?;
         check_filament(&one, &format!("arrangements[{k}].filament"))?;
-        let arranged = arrangement.filaments(k, filaments, contact)?;
+        let arranged = arrangement.filaments(k, filaments, repulsion)?;
         filaments.extend(arranged);
     }
     Ok(())
