@@ -168,6 +168,51 @@ fn crossing_filaments_bend_each_other() {
     }
 }
 
+/// A filament and its neighbour's image move like a filament and a neighbour in the open. Rounding
+/// of positions of 1 um grows by the ratio of contact stiffness to bending stiffness.
+#[test]
+fn contacts_across_faces_equal_contacts_in_the_open() {
+    for task in [
+        "Equilibrium()",
+        "Dynamics(duration_ns: 0.02, drag: Water())",
+        "Brownian(duration_ms: 2e-5, temperature_k: 298.0, seed: 3)",
+    ] {
+        let rod = "Rod(from_nm: 0.0, to_nm: 80.0, segments: 16)";
+        let open = crossing(rod, -4.0)
+            .replace("at_nm: (9.0,", "at_nm: (7.0,")
+            .replace("task: Equilibrium()", &format!("task: {task}"))
+            .replace("Stage(set", "Stage(duration_ns: 0.01, set");
+        let open = match task {
+            "Equilibrium()" => open.replace("duration_ns: 0.01, ", ""),
+            _ => open,
+        };
+        let across = open
+            .replace(
+                "at_nm: (7.0, -40.0, 40.0)",
+                "at_nm: (1007.0, -240.0, 340.0)",
+            )
+            .replace(
+                "repulsion:",
+                "periodic: PeriodicBox(size_nm: (500.0, 200.0, 100.0)), repulsion:",
+            );
+        let [(a, _), (b, _)] = [&open, &across].map(|text| solved(text));
+        let (first, second) = (a.system.state(), b.system.state());
+        let shift = Vector3::new(1000.0, -200.0, 300.0);
+        let apart = (0..first.points.len()).map(|i| {
+            let shift = if a.filaments[1].points.contains(&i) {
+                shift
+            } else {
+                Vector3::zeros()
+            };
+            (first.points.position.get(i) + shift - second.points.position.get(i)).norm()
+        });
+        let largest = apart.fold(0.0, f64::max);
+        let gap = b.smallest_gap_nm(second).unwrap();
+        println!("{task}: {largest:e} nm apart, gap {gap} nm");
+        assert!(largest < 1e-8 && gap < -0.3, "{task}: {largest:e} {gap}");
+    }
+}
+
 #[test]
 fn passage_through_a_wall_fails() {
     let text = "Scene(

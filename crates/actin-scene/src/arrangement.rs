@@ -1,7 +1,7 @@
 //! Arrangements of filaments: copies, random networks and bundles.
 
 use super::rules::{all_finite, direction, non_negative, positive, show};
-use super::{Filament, Repulsion, SceneProblem, Section};
+use super::{Filament, PeriodicBox, Repulsion, SceneProblem, Section};
 use actin_coupling::repulsion::Wall;
 use actin_mechanics::{Vector3, segments};
 use rand::{Rng, RngExt, SeedableRng};
@@ -55,7 +55,7 @@ pub(crate) enum Arrangement {
         /// By default all filaments have the length of `filament`.
         #[serde(default)]
         lengths_nm: Option<[f64; 2]>,
-        /// Smallest distance to the axes of all preceding filaments; at least 0. By default the contact distance if
+        /// Smallest distance to the axes of all preceding filaments and periodic images; at least 0. By default the contact distance if
         /// filaments repel each other, otherwise 0.
         #[serde(default)]
         apart_nm: Option<f64>,
@@ -115,8 +115,8 @@ impl Arrangement {
         }
     }
 
-    /// Returns the filaments of arrangement `k` of a scene with the `preceding` filaments and the given repulsion,
-    /// whose numbers are within their ranges.
+    /// Returns the filaments of arrangement `k` of a scene with the `preceding` filaments, repulsion and periodic
+    /// box, whose numbers are within their ranges.
     ///
     /// # Errors
     /// If a number is out of its range, or a filament finds no place.
@@ -124,7 +124,7 @@ impl Arrangement {
         &self,
         k: usize,
         preceding: &[Filament],
-        repulsion: Option<&Repulsion>,
+        surroundings: (Option<&Repulsion>, Option<&PeriodicBox>),
     ) -> Result<Vec<Filament>, SceneProblem> {
         self.check(k)?;
         Ok(match self {
@@ -140,7 +140,7 @@ impl Arrangement {
                 ..
             } => {
                 let mut random = ChaCha8Rng::seed_from_u64(*seed);
-                let free = FreeSpace::new(*apart_nm, repulsion);
+                let free = FreeSpace::new(*apart_nm, surroundings);
                 let mut axes: Vec<_> = preceding.iter().map(FilamentAxis::new).collect();
                 let mut place = |_| self.place(&mut axes, &free, &mut random);
                 let placed: Result<Vec<Filament>, Obstacle> = (0..*count).map(&mut place).collect();
@@ -198,7 +198,7 @@ impl Arrangement {
     fn place(
         &self,
         axes: &mut Vec<FilamentAxis>,
-        free: &FreeSpace,
+        free: &FreeSpace<'_>,
         random: &mut ChaCha8Rng,
     ) -> Result<Filament, Obstacle> {
         let mut obstacle = Obstacle::Walls;
@@ -297,7 +297,8 @@ enum Obstacle {
 }
 
 /// Space for random filaments.
-struct FreeSpace {
+struct FreeSpace<'a> {
+    periodic: Option<&'a PeriodicBox>,
     /// Smallest distance of axes (nm).
     apart: f64,
     walls: Vec<Wall>,
@@ -305,11 +306,15 @@ struct FreeSpace {
     radius: f64,
 }
 
-impl FreeSpace {
-    fn new(apart_nm: Option<f64>, repulsion: Option<&Repulsion>) -> Self {
+impl<'a> FreeSpace<'a> {
+    fn new(
+        apart_nm: Option<f64>,
+        (repulsion, periodic): (Option<&Repulsion>, Option<&'a PeriodicBox>),
+    ) -> Self {
         let walls = repulsion.and_then(|repulsion| repulsion.walls().ok());
         let walls = walls.into_iter().flatten();
         Self {
+            periodic,
             apart: apart_nm
                 .or(repulsion.map(Repulsion::contact_nm))
                 .unwrap_or(0.0),
@@ -323,8 +328,29 @@ impl FreeSpace {
         self.walls.iter().all(is_beside)
     }
 
+    /// Returns whether an axis is at a distance from other axes and all images.
     fn is_apart(&self, axis: &FilamentAxis, others: &[FilamentAxis]) -> bool {
-        self.apart <= 0.0 || others.iter().all(|other| axis.is_apart(other, self.apart))
+        let is_apart = |other: &FilamentAxis, shift: &Vector3| {
+            axis.is_apart(&other.shifted(*shift), self.apart)
+        };
+        let own = self.shifts(axis, axis).into_iter();
+        self.apart <= 0.0
+            || own
+                .filter(|shift| *shift != Vector3::zeros())
+                .all(|shift| is_apart(axis, &shift))
+                && others.iter().all(|other| {
+                    let mut shifts = self.shifts(axis, other).into_iter();
+                    shifts.all(|shift| is_apart(other, &shift))
+                })
+    }
+
+    /// Returns the displacements (nm) of an axis and its images that may be too close to another axis.
+    fn shifts(&self, axis: &FilamentAxis, other: &FilamentAxis) -> Vec<Vector3> {
+        let reach = axis.radius + other.radius + self.apart;
+        self.periodic.map_or_else(
+            || vec![Vector3::zeros()],
+            |periodic| periodic.shifts_within(other.centre - axis.centre, reach),
+        )
     }
 }
 
@@ -361,6 +387,14 @@ impl FilamentAxis {
                 let mut others = other.sides();
                 others.all(|b| segments::nearest_points(a, b).squared >= distance * distance)
             })
+    }
+
+    fn shifted(&self, shift: Vector3) -> Self {
+        Self {
+            corners: self.corners.iter().map(|corner| corner + shift).collect(),
+            centre: self.centre + shift,
+            radius: self.radius,
+        }
     }
 
     fn sides(&self) -> impl Iterator<Item = [Vector3; 2]> {

@@ -413,19 +413,32 @@ mod tests {
                 )"
             )
         };
-        let closest = |more: &str| {
-            let scene = Scene::from_ron(&text(more, "300.0")).expect("the scene is valid");
+        let closest_of = |text: &str, images: std::ops::RangeInclusive<i32>| {
+            let scene = Scene::from_ron(text).expect("the scene is valid");
             let axes: Vec<[Vector3; 2]> = scene
                 .filaments()
                 .map(|one| [one.place_at(0.0), one.place_at(300.0)])
                 .collect();
-            let pairs = (0..60).flat_map(|j| (0..j).map(move |i| (i, j)));
-            let squares = pairs.map(|(i, j)| segments::nearest_points(axes[i], axes[j]).squared);
+            let range = || images.clone().map(|n| 300.0 * f64::from(n));
+            let shifts = range().flat_map(|x| {
+                range().flat_map(move |y| range().map(move |z| Vector3::new(x, y, z)))
+            });
+            let pairs = shifts
+                .flat_map(|shift| (0..60).flat_map(move |j| (0..=j).map(move |i| (i, j, shift))));
+            let pairs = pairs.filter(|(i, j, shift)| i != j || *shift != Vector3::zeros());
+            let squares = pairs.map(|(i, j, shift)| {
+                segments::nearest_points(axes[i], axes[j].map(|x| x + shift)).squared
+            });
             squares.fold(f64::INFINITY, f64::min).sqrt()
         };
+        let closest = |more: &str| closest_of(&text(more, "300.0"), 0..=0);
         assert!(closest(", apart_nm: 0.0") < 7.4);
         assert!(closest("") >= 7.4 && closest("") < 12.0);
         assert!(closest(", apart_nm: 12.0") >= 12.0);
+        let periodic = "periodic: PeriodicBox(size_nm: (300.0, 300.0, 300.0)), repulsion:";
+        let periodic = text("", "300.0").replace("repulsion:", periodic);
+        assert!(closest_of(&text("", "300.0"), -3..=3) < 7.4);
+        assert!(closest_of(&periodic, -3..=3) >= 7.4);
         let refused = Scene::from_ron(&text(", apart_nm: 400.0", "10.0"))
             .expect_err("no room")
             .to_string();

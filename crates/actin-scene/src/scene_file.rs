@@ -108,13 +108,15 @@ impl TryFrom<SceneFile> for Scene {
 
 /// Appends the arranged filaments.
 fn arrange(written: &SceneFile, filaments: &mut Vec<Filament>) -> Result<(), SceneProblem> {
-    let repulsion = written.repulsion.as_ref();
+    let (repulsion, periodic) = (written.repulsion.as_ref(), written.periodic.as_ref());
+    let contact = repulsion.map_or(0.0, Repulsion::contact_nm);
     for (k, arrangement) in written.arrangements.iter().enumerate() {
         let mut one = arrangement.filament().clone();
         one.monomers.resolve();
         repulsion.map_or(Ok(()), Repulsion::first_problem)?;
+        periodic.map_or(Ok(()), |periodic| periodic.check_size(contact))?;
         check_filament(&one, &format!("arrangements[{k}].filament"))?;
-        let arranged = arrangement.filaments(k, filaments, repulsion)?;
+        let arranged = arrangement.filaments(k, filaments, (repulsion, periodic))?;
         filaments.extend(arranged);
     }
     Ok(())

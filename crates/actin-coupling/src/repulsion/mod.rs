@@ -2,8 +2,9 @@
 //!
 //! The axis of a filament is divided into [`Capsule`]s: segments of a rod, or the axial part of
 //! each monomer. Both resolutions thus have the same surface. [`Contacts`] repels capsules from
-//! each other, and [`WallContact`] repels capsules from a [`Wall`]. [`Tethers`] have the largest
-//! possible contact stiffness, which gives a bound for the time step.
+//! each other, also across the faces of a periodic box, and [`WallContact`] repels capsules from a
+//! [`Wall`]. [`Tethers`] have the largest possible contact stiffness, which gives a bound for the
+//! time step.
 //!
 //! # Integration along axes
 //! The smallest distance of two capsules is not twice differentiable if they are parallel, or if a
@@ -13,6 +14,7 @@
 
 mod capsule;
 mod contacts;
+mod images;
 mod kernel;
 mod neighbours;
 mod pair;

@@ -87,6 +87,7 @@ impl WallContact {
                 gap: distance - self.kernel.radius,
                 capsules: [i; 2],
                 places: [place; 2],
+                image: [0; 3],
             }
         });
         let least = all.min_by(|a, b| a.gap.total_cmp(&b.gap))?;

@@ -80,7 +80,9 @@ impl Assembly {
         builder.push_loads()?;
         builder.push_linkers()?;
         builder.push_repulsion()?;
-        Ok(builder.finish())
+        let assembly = builder.finish();
+        assembly.check_repulsion()?;
+        Ok(assembly)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Body, Builder, Strand};
 use crate::assembly::Part;
-use crate::assembly::repulsion::{RepulsionModel, SurfaceGap};
+use crate::assembly::repulsion::RepulsionModel;
 use crate::scene::SceneProblem;
 use actin_cosserat::RodLayout;
 use actin_coupling::repulsion::{
@@ -15,7 +15,7 @@ impl Builder<'_> {
     /// Pushes the repulsion of a scene.
     ///
     /// # Errors
-    /// If filaments as built penetrate each other or a wall beyond the range of the repulsion.
+    /// If a radius or length is not positive.
     pub(super) fn push_repulsion(&mut self) -> Result<(), SceneProblem> {
         let Some(repulsion) = &self.scene.repulsion else {
             return Ok(());
@@ -32,7 +32,8 @@ impl Builder<'_> {
             .filaments
             .then(|| Contacts::new(capsules.clone(), parameters))
             .transpose()
-            .map_err(refused)?;
+            .map_err(refused)?
+            .map(|contacts| contacts.with_cell(self.cell));
         if let Some(contacts) = &contacts {
             self.stock
                 .push_term(Box::new(contacts.clone()), Part::Contacts);
@@ -51,28 +52,8 @@ impl Builder<'_> {
             walls,
             radius_nm: radius,
         };
-        let touching = repelled.touching(&self.stock.state);
-        if let Some(beyond) = touching.iter().find(|touching| touching.is_beyond()) {
-            return Err(self.built_into(beyond, radius));
-        }
         self.repelled = Some(repelled);
         Ok(())
-    }
-
-    fn built_into(&self, touching: &SurfaceGap, radius: f64) -> SceneProblem {
-        let key = match touching.part {
-            Part::Wall(name) => name.key(),
-            _ => "repulsion.radius_nm".to_owned(),
-        };
-        let value = match touching.part {
-            Part::Contacts => format!("{radius:?}"),
-            _ => String::new(),
-        };
-        let rule = format!(
-            "in the initial state {}, more than repulsion can separate: increase the distance",
-            touching.in_words(self.filaments.len())
-        );
-        SceneProblem::new(key, value, rule)
     }
 
     fn capsules(&self) -> Result<Vec<Capsule>, RepulsionError> {
