@@ -10,6 +10,7 @@ struct Readme;
 
 mod adaptive_resolution;
 mod arrangement;
+mod bead;
 mod brackets;
 mod brownian;
 mod crosslinkers;
@@ -66,6 +67,7 @@ pub use actin_cosserat::{
 pub use actin_coupling::repulsion::Side;
 pub use adaptive_resolution::{AdaptiveResolution, RefinementCriterion};
 pub(crate) use arrangement::Arrangement;
+pub use bead::Bead;
 pub use brownian::{Brownian, Fluid, Interfaces, Water};
 pub(crate) use crosslinkers::Crosslinkers;
 pub use curve::{Curve, left_jacobian_product};

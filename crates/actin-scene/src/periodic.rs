@@ -233,44 +233,47 @@ mod tests {
         assert!((place.x - 49.0).abs() < 1e-12 && (place.y - 20.0).abs() < 1e-12);
     }
 
+    /// Replaced text, wrong text and the key of the message.
+    const MISTAKES: [(&str, &str, &str); 9] = [
+        ("90.0), strain", "-90.0), strain", "periodic.size_nm"),
+        ("strain: 0.1", "strain: 2.0", "periodic.strain"),
+        ("strain: 0.1", "", "path[0].set[0].factor"),
+        (
+            "(size_nm: (50.0, 50.0, 90.0), strain: 0.1)",
+            "(size_nm: (50.0, 50.0, 90.0), strain: 0.1, \
+              factor: Sine(period_ns: 1.0))",
+            "periodic.factor",
+        ),
+        (
+            "task: Equilibrium()",
+            "task: Dynamics(duration_ns: 1.0)",
+            "periodic.strain",
+        ),
+        (
+            "path:",
+            "repulsion: Repulsion(planes: [(at_nm: (0.0, 0.0, 0.0), normal: (1.0, 0.0, 0.0))]), path:",
+            "repulsion",
+        ),
+        (
+            "path:",
+            "repulsion: Repulsion(radius_nm: 13.0), path:",
+            "periodic.size_nm",
+        ),
+        (
+            "path: [Stage(set: [Shear(factor: 1.0)])],\n        task: Equilibrium()",
+            "task: Brownian(duration_ms: 1.0, temperature_k: 0.0, flow: Shear(rate_per_s: 1.0, along: (1.0, 0.0, 0.0), across: (0.0, 0.0, 1.0)))",
+            "task.flow",
+        ),
+        (
+            "to: Site(filament: 1, at_nm: 5.0)",
+            "anchor_nm: (0.0, 0.0, 9.0)",
+            "linkers[0].image",
+        ),
+    ];
+
     #[test]
     fn mistakes_of_periodic_scenes_are_refused() {
-        for (right, wrong, key) in [
-            ("90.0), strain", "-90.0), strain", "periodic.size_nm"),
-            ("strain: 0.1", "strain: 2.0", "periodic.strain"),
-            ("strain: 0.1", "", "path[0].set[0].factor"),
-            (
-                "(size_nm: (50.0, 50.0, 90.0), strain: 0.1)",
-                "(size_nm: (50.0, 50.0, 90.0), strain: 0.1, \
-              factor: Sine(period_ns: 1.0))",
-                "periodic.factor",
-            ),
-            (
-                "task: Equilibrium()",
-                "task: Dynamics(duration_ns: 1.0)",
-                "periodic.strain",
-            ),
-            (
-                "path:",
-                "repulsion: Repulsion(planes: [(at_nm: (0.0, 0.0, 0.0), normal: (1.0, 0.0, 0.0))]), path:",
-                "repulsion",
-            ),
-            (
-                "path:",
-                "repulsion: Repulsion(radius_nm: 13.0), path:",
-                "periodic.size_nm",
-            ),
-            (
-                "path: [Stage(set: [Shear(factor: 1.0)])],\n        task: Equilibrium()",
-                "task: Brownian(duration_ms: 1.0, temperature_k: 0.0, flow: Shear(rate_per_s: 1.0, along: (1.0, 0.0, 0.0), across: (0.0, 0.0, 1.0)))",
-                "task.flow",
-            ),
-            (
-                "to: Site(filament: 1, at_nm: 5.0)",
-                "anchor_nm: (0.0, 0.0, 9.0)",
-                "linkers[0].image",
-            ),
-        ] {
+        for (right, wrong, key) in MISTAKES {
             let refused = Scene::from_ron(&SHEARED.replace(right, wrong)).expect_err(wrong);
             assert!(refused.to_string().contains(key), "{wrong}: {refused}");
         }

@@ -82,25 +82,21 @@ impl SurfaceGap {
             1 => "the filament".to_owned(),
             _ => format!("filament {filament}"),
         };
-        match self.part {
-            Part::Wall(_) => {
-                format!(
-                    "{} penetrates this wall by {depth:.2} nm at s = {s:.2} nm",
-                    name(a)
-                )
-            }
-            _ => {
-                let other = match self.gap.image {
-                    [0, 0, 0] if a == b => "itself".to_owned(),
-                    [0, 0, 0] => name(b),
-                    image => format!("image {image:?} of {}", name(b)),
-                };
-                format!(
-                    "{} overlaps {other} by {depth:.2} nm at s = {s:.2} and {t:.2} nm",
-                    name(a)
-                )
-            }
+        if matches!(self.part, Part::Wall(_)) {
+            return format!(
+                "{} penetrates this wall by {depth:.2} nm at s = {s:.2} nm",
+                name(a)
+            );
         }
+        let other = match self.gap.image {
+            [0, 0, 0] if a == b => "itself".to_owned(),
+            [0, 0, 0] => name(b),
+            image => format!("image {image:?} of {}", name(b)),
+        };
+        format!(
+            "{} overlaps {other} by {depth:.2} nm at s = {s:.2} and {t:.2} nm",
+            name(a)
+        )
     }
 }
 
