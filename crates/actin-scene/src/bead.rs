@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 
 /// Spherical bead attached rigidly to a filament. A linker between the same site and an anchor is an optical trap.
 ///
-/// In a fluid, the bead adds the friction `6 pi eta r` of its centre and `8 pi eta r^3` of its rotation to the
-/// friction of the filament, with the viscosity `eta` and the radius `r`. It has no mass and no contacts. It does
-/// not change equilibria.
+/// The centre has the friction `6 pi eta r`, and rotations have `8 pi eta r^3`. `eta` is the viscosity of the fluid,
+/// and `r` the radius. The friction of the filament is added. A bead has no mass and no contacts, and does not change
+/// equilibria.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

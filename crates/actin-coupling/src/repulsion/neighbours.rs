@@ -184,8 +184,8 @@ impl Neighbours {
     }
 }
 
-/// Upper bound of the relative displacement (nm) of two axes, or of an axis and an image, that are
-/// within a distance `d` (nm) in the second state or on straight paths to it.
+/// Upper bound of the relative displacement (nm) of two axes, or of an axis and an image. They are
+/// within a distance `d` (nm) in the second state or on the straight path to it.
 ///
 /// ```text
 /// 2 (1 + |g|) (max |u| + |g' - g| max |x' - x|) + |g' - g| d
