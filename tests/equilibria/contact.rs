@@ -3,7 +3,7 @@
 use super::common::{build, failure, run_anyway, solved};
 use actin_mechanics::testing::resultant;
 use actin_mechanics::{Loads, Vector3};
-use actin_sim::{Assembly, Failure, Part, Summary};
+use actin_sim::{Assembly, Failure, Part, Summary, WallName};
 
 fn pushed(assembly: &Assembly, part: Part) -> (Vector3, f64) {
     let term = assembly.terms.iter().position(|t| t.part == part).unwrap();
@@ -15,14 +15,14 @@ fn pushed(assembly: &Assembly, part: Part) -> (Vector3, f64) {
     (force, moment.y / force.x)
 }
 
-fn pressed(section: &str, at_nm: f64, x_nm: f64) -> String {
+fn pressed(section: &str, wall: &str) -> String {
     format!(
         "Scene(
             filament: Filament(sections: [{section}], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start)],
             repulsion: Repulsion(
                 filaments: false, stiffness_pn_per_nm: 1e4,
-                spheres: [Sphere(at_nm: ({x_nm:?}, 0.0, {at_nm:?}), radius_nm: 10.0, side: Outside)],
+                {wall},
             ),
             task: Equilibrium(),
         )"
@@ -32,11 +32,20 @@ fn pressed(section: &str, at_nm: f64, x_nm: f64) -> String {
 /// Beam theory gives the force `d / (s^3/3B + s/S)` for a deflection `d` at the contact.
 /// Discretisation (0.03 %) and the contact width of 4 nm cause an error below half a percent.
 #[test]
-fn a_sphere_presses_a_cantilever_as_beam_theory_has_it() {
-    let rod = "Rod(from_nm: 0.0, to_nm: 160.0, segments: 32)";
+fn round_walls_press_a_cantilever_as_beam_theory_has_it() {
     // The surfaces meet at 13.7 nm.
-    let (assembly, _) = solved(&pressed(rod, 120.0, -12.7));
-    let (force, z) = pushed(&assembly, Part::Sphere(0));
+    let place = "at_nm: (-12.7, 0.0, 120.0), radius_nm: 10.0, side: Outside";
+    let sphere = format!("spheres: [Sphere({place})]");
+    let cylinder = format!("cylinders: [Cylinder(axis: (0.0, -2.0, 0.0), {place})]");
+    for (shape, wall) in [("sphere", sphere), ("cylinder", cylinder)] {
+        check_press(WallName { shape, index: 0 }, &wall);
+    }
+}
+
+fn check_press(name: WallName, wall: &str) {
+    let rod = "Rod(from_nm: 0.0, to_nm: 160.0, segments: 32)";
+    let (assembly, _) = solved(&pressed(rod, wall));
+    let (force, z) = pushed(&assembly, Part::Wall(name));
     let state = assembly.system.state();
     let x = |k: usize| state.points.position.get(k);
     let k = (0..32).find(|&k| x(k + 1).z > z).unwrap();
@@ -45,16 +54,26 @@ fn a_sphere_presses_a_cantilever_as_beam_theory_has_it() {
     let expected = deflection / (z.powi(3) / (3.0 * 3.9e4) + z / 1.6e4);
     let error = force.x / expected - 1.0;
     println!(
-        "{:.5} pN at {z:.2} nm for {deflection:.4} nm, {error:e} from beam theory",
-        force.x
+        "{}: {:.5} pN at {z:.2} nm for {deflection:.4} nm, {error:e} from beam theory",
+        name.shape, force.x
     );
     assert!(force.x > 0.03 && error.abs() < 5e-3, "{error}");
 }
 
-/// A free filament on a plane sinks to the depth `p` at which `k p^3 / (6 R^3)` is its weight per
-/// length.
+/// A free filament on a plane, along a cylinder or in a box sinks to the depth `p` at which
+/// `k p^3 / (6 R^3)` is its weight per length.
 #[test]
-fn a_filament_lies_on_a_plane_at_the_depth_of_its_weight() {
+fn a_filament_lies_on_a_wall_at_the_depth_of_its_weight() {
+    for wall in [
+        "planes: [Plane(at_nm: (0.0, 0.0, 0.0), normal: (3.0, 0.0, 0.0))]",
+        "cylinders: [Cylinder(at_nm: (20.0, 0.0, 9.0), axis: (0.0, 0.0, 1.0), radius_nm: 20.0, side: Inside)]",
+        "cuboids: [Cuboid(at_nm: (10.0, 0.0, 40.0), size_nm: (20.0, 20.0, 100.0))]",
+    ] {
+        check_depth(wall);
+    }
+}
+
+fn check_depth(wall: &str) {
     let per_nm = 0.05;
     let depth = (6.0 * 3.7_f64.powi(3) * per_nm / 1e3).cbrt();
     for section in [
@@ -67,14 +86,14 @@ fn a_filament_lies_on_a_plane_at_the_depth_of_its_weight() {
                 filament: Filament(sections: [{section}], at_nm: (4.0, 0.0, 0.0), rod: RodModel(law: Constant)),
                 clamps: [Clamp(end: Start, slides: Freely)],
                 loads: [ForcePerLength(force_pn_per_nm: (-{per_nm:?}, 0.0, 0.0))],
-                repulsion: Repulsion(planes: [Plane(at_nm: (0.0, 0.0, 0.0), normal: (3.0, 0.0, 0.0))]),
+                repulsion: Repulsion({wall}),
                 task: Equilibrium(),
             )"
         );
         let (assembly, outcome) = solved(&text);
         let state = assembly.system.state();
         let gap = assembly.smallest_gap_nm(state).unwrap();
-        println!("{section}: {gap:.6} nm, {depth:.6} nm deep");
+        println!("{wall}, {section}: {gap:.6} nm, {depth:.6} nm deep");
         // Ends of a clamped monomer filament extend a rise beyond the load: 3 % more length, 1 %
         // less depth.
         let bound = if section.starts_with("Rod") {
@@ -146,6 +165,51 @@ fn crossing_filaments_bend_each_other() {
             error.abs() < 1e-3 && gap < -1.0 && gap > -2.0,
             "{error}, {gap}"
         );
+    }
+}
+
+/// A filament and its neighbour's image move like a filament and a neighbour in the open. Rounding
+/// of positions of 1 um grows by the ratio of contact stiffness to bending stiffness.
+#[test]
+fn contacts_across_faces_equal_contacts_in_the_open() {
+    for task in [
+        "Equilibrium()",
+        "Dynamics(duration_ns: 0.02, drag: Water())",
+        "Brownian(duration_ms: 2e-5, temperature_k: 298.0, seed: 3)",
+    ] {
+        let rod = "Rod(from_nm: 0.0, to_nm: 80.0, segments: 16)";
+        let open = crossing(rod, -4.0)
+            .replace("at_nm: (9.0,", "at_nm: (7.0,")
+            .replace("task: Equilibrium()", &format!("task: {task}"))
+            .replace("Stage(set", "Stage(duration_ns: 0.01, set");
+        let open = match task {
+            "Equilibrium()" => open.replace("duration_ns: 0.01, ", ""),
+            _ => open,
+        };
+        let across = open
+            .replace(
+                "at_nm: (7.0, -40.0, 40.0)",
+                "at_nm: (1007.0, -240.0, 340.0)",
+            )
+            .replace(
+                "repulsion:",
+                "periodic: PeriodicBox(size_nm: (500.0, 200.0, 100.0)), repulsion:",
+            );
+        let [(a, _), (b, _)] = [&open, &across].map(|text| solved(text));
+        let (first, second) = (a.system.state(), b.system.state());
+        let shift = Vector3::new(1000.0, -200.0, 300.0);
+        let apart = (0..first.points.len()).map(|i| {
+            let shift = if a.filaments[1].points.contains(&i) {
+                shift
+            } else {
+                Vector3::zeros()
+            };
+            (first.points.position.get(i) + shift - second.points.position.get(i)).norm()
+        });
+        let largest = apart.fold(0.0, f64::max);
+        let gap = b.smallest_gap_nm(second).unwrap();
+        println!("{task}: {largest:e} nm apart, gap {gap} nm");
+        assert!(largest < 1e-8 && gap < -0.3, "{task}: {largest:e} {gap}");
     }
 }
 

@@ -29,29 +29,55 @@ pub struct PeriodicImage {
 impl PeriodicCell {
     /// Displacement of an image (nm, lab frame).
     pub fn displacement(&self, index: [i32; 3], state: &State) -> Vector3 {
-        self.shift(index.map(f64::from).into(), state)
+        self.lattice(state).shift(index.map(f64::from).into())
     }
 
     /// Position in the box, with fractions of the edges from 0 to 1 (nm, lab frame).
     pub fn wrap(&self, place: Vector3, state: &State) -> Vector3 {
-        place - self.shift(self.fractions(place, state).map(f64::floor), state)
+        let lattice = self.lattice(state);
+        place - lattice.shift(lattice.fractions(place).map(f64::floor))
     }
 
     /// Displacement of the image for which `d` plus the displacement is shortest, for vectors `d` (nm, lab frame) to
     /// images closer than half an edge.
     pub fn to_nearest(&self, d: Vector3, state: &State) -> Vector3 {
-        -self.shift(self.fractions(d, state).map(f64::round), state)
+        let lattice = self.lattice(state);
+        -lattice.shift(lattice.fractions(d).map(f64::round))
     }
 
-    fn shift(&self, index: Vector3, state: &State) -> Vector3 {
+    /// Lattice of the images in `state`.
+    pub(crate) fn lattice(&self, state: &State) -> Lattice {
+        Lattice {
+            size: self.size,
+            strain: self.strain * state.controls[self.factor],
+        }
+    }
+}
+
+/// Lattice of periodic images in one state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lattice {
+    /// Edges without strain (nm).
+    pub(crate) size: Vector3,
+    /// Shear strain `dx/dz`.
+    pub(crate) strain: f64,
+}
+
+impl Lattice {
+    /// Displacement of an image (nm, lab frame).
+    pub(crate) fn shift(&self, index: Vector3) -> Vector3 {
         let unstrained = index.component_mul(&self.size);
-        let strain = self.strain * state.controls[self.factor];
-        unstrained + Vector3::x() * (strain * unstrained.z)
+        unstrained + Vector3::x() * (self.strain * unstrained.z)
     }
 
-    fn fractions(&self, place: Vector3, state: &State) -> Vector3 {
-        let strain = self.strain * state.controls[self.factor];
-        (place - Vector3::x() * (strain * place.z)).component_div(&self.size)
+    /// Position without strain (nm).
+    pub(crate) fn unstrained(&self, place: Vector3) -> Vector3 {
+        place - Vector3::x() * (self.strain * place.z)
+    }
+
+    /// Position in units of the edges, without strain.
+    pub(crate) fn fractions(&self, place: Vector3) -> Vector3 {
+        self.unstrained(place).component_div(&self.size)
     }
 }
 

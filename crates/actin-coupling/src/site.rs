@@ -132,6 +132,11 @@ impl Site {
         &self.shares[..self.points]
     }
 
+    /// Two points with their weights; the second weight is zero on a monomer.
+    pub fn weighted_points(&self) -> [(usize, f64); 2] {
+        self.shares
+    }
+
     /// Index of the frame.
     pub fn frame(&self) -> usize {
         self.frame

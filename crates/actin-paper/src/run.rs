@@ -25,6 +25,7 @@ pub(crate) fn free(title: &str, filament: Filament) -> Scene {
         clamps: Vec::new(),
         loads: Vec::new(),
         linkers: Vec::new(),
+        beads: Vec::new(),
         repulsion: None,
         periodic: None,
         path: Vec::new(),

@@ -6,7 +6,7 @@ use crate::records::{arrays, bodies};
 use crate::scene::{Scene, counts};
 use actin_export::{RecordedStates, VtkPictures, write_collection};
 use actin_rundir::{Checkpoints, FinishedRun, Format, RunDirectory};
-use actin_sim::{Plan, shape};
+use actin_sim::{Plan, shape, shape::ProfilePoint};
 use actin_view::{Limits, Palette};
 use pyo3::exceptions::{PyIndexError, PyOSError, PyValueError};
 use pyo3::prelude::*;
@@ -57,6 +57,20 @@ pub(crate) fn export(
     written.map_err(|error| errors::directory(&error))
 }
 
+/// Name and value of a field along a filament.
+type Field = (&'static str, fn(&ProfilePoint) -> f64);
+
+const FIELDS: [Field; 8] = [
+    ("s_nm", |p| p.s_nm),
+    ("curvature_rad_per_nm", |p| p.curvature_rad_per_nm),
+    ("twist_rad_per_nm", |p| p.twist_rad_per_nm),
+    ("energy_per_length_pn", |p| p.energy_per_length_pn),
+    ("tension_pn", |p| p.load.tension_pn()),
+    ("shear_pn", |p| p.load.shear_pn()),
+    ("moment_pn_nm", |p| p.load.bending_moment_pn_nm()),
+    ("torque_pn_nm", |p| p.load.torque_pn_nm()),
+];
+
 /// Returns the fields along all filaments in a record, by name.
 #[pyfunction]
 pub(crate) fn profile(py: Python<'_>, directory: PathBuf, record: usize) -> PyResult<Py<PyDict>> {
@@ -67,38 +81,17 @@ pub(crate) fn profile(py: Python<'_>, directory: PathBuf, record: usize) -> PyRe
         return Err(PyIndexError::new_err(rule));
     };
     let state = state.map_err(|error| errors::directory(&error))?;
-    let mut columns: [Vec<f64>; 9] = Default::default();
-    for filament in 0..run.assembly().filaments.len() {
-        for point in shape::profile_of(run.assembly(), filament, &state) {
-            let values = [
-                filament as f64,
-                point.s_nm,
-                point.curvature_rad_per_nm,
-                point.twist_rad_per_nm,
-                point.energy_per_length_pn,
-                point.load.tension_pn(),
-                point.load.shear_pn(),
-                point.load.bending_moment_pn_nm(),
-                point.load.torque_pn_nm(),
-            ];
-            for (column, value) in columns.iter_mut().zip(values) {
-                column.push(value);
-            }
-        }
-    }
-    let names = [
-        "filament",
-        "s_nm",
-        "curvature_rad_per_nm",
-        "twist_rad_per_nm",
-        "energy_per_length_pn",
-        "tension_pn",
-        "shear_pn",
-        "moment_pn_nm",
-        "torque_pn_nm",
-    ];
+    let filaments = 0..run.assembly().filaments.len();
+    let points = filaments.flat_map(|filament| {
+        let points = shape::profile_of(run.assembly(), filament, &state).into_iter();
+        points.map(move |point| (filament as f64, point))
+    });
+    let points: Vec<(f64, ProfilePoint)> = points.collect();
     let all = PyDict::new(py);
-    for (name, values) in names.into_iter().zip(columns) {
+    let filaments = points.iter().map(|(filament, _)| *filament).collect();
+    all.set_item("filament", column(py, filaments)?)?;
+    for (name, field) in FIELDS {
+        let values = points.iter().map(|(_, point)| field(point)).collect();
         all.set_item(name, column(py, values)?)?;
     }
     Ok(all.unbind())

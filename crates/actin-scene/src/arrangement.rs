@@ -1,7 +1,8 @@
 //! Arrangements of filaments: copies, random networks and bundles.
 
 use super::rules::{all_finite, direction, non_negative, positive, show};
-use super::{Filament, SceneProblem, Section};
+use super::{Filament, PeriodicBox, Repulsion, SceneProblem, Section};
+use actin_coupling::repulsion::Wall;
 use actin_mechanics::{Vector3, segments};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -35,7 +36,8 @@ pub(crate) enum Arrangement {
         /// Displacement from one copy to the next (lab frame); finite, not zero.
         shift_nm: [f64; 3],
     },
-    /// Filaments with uniformly distributed midpoints in a box and random rotations about their axes.
+    /// Filaments with uniformly distributed midpoints in a box and random rotations about their axes, within the walls
+    /// of `repulsion`.
     Random {
         /// Filament to place. Its `at_nm` is ignored; its `direction` is used for parallel orientations.
         filament: Filament,
@@ -53,7 +55,7 @@ pub(crate) enum Arrangement {
         /// By default all filaments have the length of `filament`.
         #[serde(default)]
         lengths_nm: Option<[f64; 2]>,
-        /// Smallest distance to the axes of all preceding filaments; at least 0. By default the contact distance if
+        /// Smallest distance to the axes of all preceding filaments and periodic images; at least 0. By default the contact distance if
         /// filaments repel each other, otherwise 0.
         #[serde(default)]
         apart_nm: Option<f64>,
@@ -113,8 +115,8 @@ impl Arrangement {
         }
     }
 
-    /// Returns the filaments of arrangement `k` of a scene with the `preceding` filaments and the given contact
-    /// distance of axes (nm).
+    /// Returns the filaments of arrangement `k` of a scene with the `preceding` filaments, repulsion and periodic
+    /// box, whose numbers are within their ranges.
     ///
     /// # Errors
     /// If a number is out of its range, or a filament finds no place.
@@ -122,7 +124,7 @@ impl Arrangement {
         &self,
         k: usize,
         preceding: &[Filament],
-        contact: f64,
+        surroundings: (Option<&Repulsion>, Option<&PeriodicBox>),
     ) -> Result<Vec<Filament>, SceneProblem> {
         self.check(k)?;
         Ok(match self {
@@ -138,17 +140,11 @@ impl Arrangement {
                 ..
             } => {
                 let mut random = ChaCha8Rng::seed_from_u64(*seed);
-                let apart = apart_nm.unwrap_or(contact);
+                let free = FreeSpace::new(*apart_nm, surroundings);
                 let mut axes: Vec<_> = preceding.iter().map(FilamentAxis::new).collect();
-                let mut place = |_| self.place(&mut axes, apart, &mut random);
-                let placed: Option<Vec<Filament>> = (0..*count).map(&mut place).collect();
-                return placed.ok_or_else(|| {
-                    let rule = format!(
-                        "found no room for {count} filaments at this distance in {MOST_TRIALS} trials per filament: \
-                         increase box_nm or reduce count or apart_nm"
-                    );
-                    SceneProblem::new(format!("arrangements[{k}].apart_nm"), show(apart), rule)
-                });
+                let mut place = |_| self.place(&mut axes, &free, &mut random);
+                let placed: Result<Vec<Filament>, Obstacle> = (0..*count).map(&mut place).collect();
+                return placed.map_err(|obstacle| self.no_room(k, obstacle, free.apart));
             }
             Self::Bundle { filament, seed, .. } => {
                 self.bundle(filament, ChaCha8Rng::seed_from_u64(*seed))
@@ -195,22 +191,50 @@ impl Arrangement {
         }
     }
 
-    /// Returns a random filament at a distance from the given axes and adds its axis, or `None` after too many trials.
+    /// Returns a random filament in the free space between the given axes and adds its axis.
+    ///
+    /// # Errors
+    /// After too many trials.
     fn place(
         &self,
         axes: &mut Vec<FilamentAxis>,
-        apart: f64,
+        free: &FreeSpace<'_>,
         random: &mut ChaCha8Rng,
-    ) -> Option<Filament> {
-        let mut trials = (0..MOST_TRIALS).map(|_| {
+    ) -> Result<Filament, Obstacle> {
+        let mut obstacle = Obstacle::Walls;
+        for _ in 0..MOST_TRIALS {
             let filament = self.random(self.filament().clone(), random);
             let axis = FilamentAxis::new(&filament);
-            (filament, axis)
-        });
-        let is_free = |axis: &FilamentAxis| axes.iter().all(|other| axis.is_apart(other, apart));
-        let (filament, axis) = trials.find(|(_, axis)| apart <= 0.0 || is_free(axis))?;
-        axes.push(axis);
-        Some(filament)
+            if !free.is_within_walls(&axis) {
+                continue;
+            }
+            if free.is_apart(&axis, axes) {
+                axes.push(axis);
+                return Ok(filament);
+            }
+            obstacle = Obstacle::Filaments;
+        }
+        Err(obstacle)
+    }
+
+    fn no_room(&self, k: usize, obstacle: Obstacle, apart: f64) -> SceneProblem {
+        let count = self.count();
+        let (key, value, reason) = match (obstacle, self) {
+            (Obstacle::Walls, Self::Random { box_nm, .. }) => (
+                "box_nm",
+                show(box_nm),
+                "within the walls of `repulsion`: change box_nm, centre_nm or orientation, or enlarge the walls",
+            ),
+            _ => (
+                "apart_nm",
+                show(apart),
+                "at this distance: increase box_nm or reduce count or apart_nm",
+            ),
+        };
+        let rule = format!(
+            "found no room for {count} filaments in {MOST_TRIALS} trials per filament {reason}"
+        );
+        SceneProblem::new(format!("arrangements[{k}].{key}"), value, rule)
     }
 
     fn random(&self, mut filament: Filament, random: &mut ChaCha8Rng) -> Filament {
@@ -265,6 +289,71 @@ impl Arrangement {
     }
 }
 
+/// Reason why trials failed.
+#[derive(Clone, Copy, Debug)]
+enum Obstacle {
+    Walls,
+    Filaments,
+}
+
+/// Space for random filaments.
+struct FreeSpace<'a> {
+    periodic: Option<&'a PeriodicBox>,
+    /// Smallest distance of axes (nm).
+    apart: f64,
+    walls: Vec<Wall>,
+    /// Smallest distance of axes from walls (nm).
+    radius: f64,
+}
+
+impl<'a> FreeSpace<'a> {
+    fn new(
+        apart_nm: Option<f64>,
+        (repulsion, periodic): (Option<&Repulsion>, Option<&'a PeriodicBox>),
+    ) -> Self {
+        let walls = repulsion.and_then(|repulsion| repulsion.walls().ok());
+        let walls = walls.into_iter().flatten();
+        Self {
+            periodic,
+            apart: apart_nm
+                .or(repulsion.map(Repulsion::contact_nm))
+                .unwrap_or(0.0),
+            walls: walls.map(|(_, wall)| wall).collect(),
+            radius: repulsion.map_or(0.0, |repulsion| repulsion.radius_nm),
+        }
+    }
+
+    fn is_within_walls(&self, axis: &FilamentAxis) -> bool {
+        let is_beside = |wall: &Wall| axis.sides().all(|side| wall.nearest(side).1 >= self.radius);
+        self.walls.iter().all(is_beside)
+    }
+
+    /// Returns whether an axis is at a distance from other axes and all images.
+    fn is_apart(&self, axis: &FilamentAxis, others: &[FilamentAxis]) -> bool {
+        let is_apart = |other: &FilamentAxis, shift: &Vector3| {
+            axis.is_apart(&other.shifted(*shift), self.apart)
+        };
+        let own = self.shifts(axis, axis).into_iter();
+        self.apart <= 0.0
+            || own
+                .filter(|shift| *shift != Vector3::zeros())
+                .all(|shift| is_apart(axis, &shift))
+                && others.iter().all(|other| {
+                    let mut shifts = self.shifts(axis, other).into_iter();
+                    shifts.all(|shift| is_apart(other, &shift))
+                })
+    }
+
+    /// Returns the displacements (nm) of an axis and its images that may be too close to another axis.
+    fn shifts(&self, axis: &FilamentAxis, other: &FilamentAxis) -> Vec<Vector3> {
+        let reach = axis.radius + other.radius + self.apart;
+        self.periodic.map_or_else(
+            || vec![Vector3::zeros()],
+            |periodic| periodic.shifts_within(other.centre - axis.centre, reach),
+        )
+    }
+}
+
 /// Axis of a filament as built: a polygon and a sphere around it.
 struct FilamentAxis {
     corners: Vec<Vector3>,
@@ -293,15 +382,23 @@ impl FilamentAxis {
 
     fn is_apart(&self, other: &Self, distance: f64) -> bool {
         let least = (self.centre - other.centre).norm() - self.radius - other.radius;
-        let sides = |axis: &Self| -> Vec<[Vector3; 2]> {
-            let pairs = axis.corners.windows(2);
-            pairs.map(|pair| [pair[0], pair[1]]).collect()
-        };
         least >= distance
-            || sides(self).into_iter().all(|a| {
-                let mut others = sides(other).into_iter();
+            || self.sides().all(|a| {
+                let mut others = other.sides();
                 others.all(|b| segments::nearest_points(a, b).squared >= distance * distance)
             })
+    }
+
+    fn shifted(&self, shift: Vector3) -> Self {
+        Self {
+            corners: self.corners.iter().map(|corner| corner + shift).collect(),
+            centre: self.centre + shift,
+            radius: self.radius,
+        }
+    }
+
+    fn sides(&self) -> impl Iterator<Item = [Vector3; 2]> {
+        self.corners.windows(2).map(|pair| [pair[0], pair[1]])
     }
 }
 

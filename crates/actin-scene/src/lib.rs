@@ -10,6 +10,7 @@ struct Readme;
 
 mod adaptive_resolution;
 mod arrangement;
+mod bead;
 mod brackets;
 mod brownian;
 mod crosslinkers;
@@ -64,8 +65,10 @@ pub use actin_cosserat::{
     CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist,
     TwistRise, TwistStretch as TwistStretchLaw,
 };
+pub use actin_coupling::repulsion::Side;
 pub use adaptive_resolution::{AdaptiveResolution, RefinementCriterion};
 pub(crate) use arrangement::Arrangement;
+pub use bead::Bead;
 pub use brownian::{Brownian, Fluid, Interfaces, Water};
 pub(crate) use crosslinkers::Crosslinkers;
 pub use curve::{Curve, left_jacobian_product};
@@ -89,7 +92,7 @@ pub use periodic::PeriodicBox;
 pub use place::ClampedEnds;
 pub use problem::{SceneError, SceneProblem};
 pub use read::{ParseReport, read_all, read_ron, to_ron};
-pub use repulsion::{Plane, Repulsion, Sphere, SphereSide};
+pub use repulsion::{Cuboid, Cylinder, Plane, Repulsion, Sphere, WallName};
 #[cfg(feature = "schema")]
 pub use schema::schema;
 pub use section::{MonomerChanges, RodChanges, Section};

@@ -153,7 +153,7 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
 }
 
 /// Checks a site. Its keys begin with `key`.
-fn check_site(scene: &Scene, key: &str, site: &LinkerSite) -> Result<(), SceneProblem> {
+pub(super) fn check_site(scene: &Scene, key: &str, site: &LinkerSite) -> Result<(), SceneProblem> {
     let filament = scene.named_filament(&format!("{key}.filament"), site.filament)?;
     let length = filament.length_nm();
     if !(0.0..=length).contains(&site.at_nm) {

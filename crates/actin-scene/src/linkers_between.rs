@@ -399,6 +399,25 @@ mod tests {
         }
     }
 
+    /// Smallest distance of 60 filaments of 300 nm and their images in a box of 300 nm.
+    fn closest_of(text: &str, images: std::ops::RangeInclusive<i32>) -> f64 {
+        let scene = Scene::from_ron(text).expect("the scene is valid");
+        let axes: Vec<[Vector3; 2]> = scene
+            .filaments()
+            .map(|one| [one.place_at(0.0), one.place_at(300.0)])
+            .collect();
+        let range = || images.clone().map(|n| 300.0 * f64::from(n));
+        let shifts = range()
+            .flat_map(|x| range().flat_map(move |y| range().map(move |z| Vector3::new(x, y, z))));
+        let pairs =
+            shifts.flat_map(|shift| (0..60).flat_map(move |j| (0..=j).map(move |i| (i, j, shift))));
+        let pairs = pairs.filter(|(i, j, shift)| i != j || *shift != Vector3::zeros());
+        let squares = pairs.map(|(i, j, shift)| {
+            segments::nearest_points(axes[i], axes[j].map(|x| x + shift)).squared
+        });
+        squares.fold(f64::INFINITY, f64::min).sqrt()
+    }
+
     #[test]
     fn random_filaments_that_repel_each_other_are_apart() {
         let text = |more: &str, edge: &str| {
@@ -413,23 +432,69 @@ mod tests {
                 )"
             )
         };
-        let closest = |more: &str| {
-            let scene = Scene::from_ron(&text(more, "300.0")).expect("the scene is valid");
-            let axes: Vec<[Vector3; 2]> = scene
-                .filaments()
-                .map(|one| [one.place_at(0.0), one.place_at(300.0)])
-                .collect();
-            let pairs = (0..60).flat_map(|j| (0..j).map(move |i| (i, j)));
-            let squares = pairs.map(|(i, j)| segments::nearest_points(axes[i], axes[j]).squared);
-            squares.fold(f64::INFINITY, f64::min).sqrt()
-        };
+        let closest = |more: &str| closest_of(&text(more, "300.0"), 0..=0);
         assert!(closest(", apart_nm: 0.0") < 7.4);
         assert!(closest("") >= 7.4 && closest("") < 12.0);
         assert!(closest(", apart_nm: 12.0") >= 12.0);
+        let periodic = "periodic: PeriodicBox(size_nm: (300.0, 300.0, 300.0)), repulsion:";
+        let periodic = text("", "300.0").replace("repulsion:", periodic);
+        assert!(closest_of(&text("", "300.0"), -3..=3) < 7.4);
+        assert!(closest_of(&periodic, -3..=3) >= 7.4);
         let refused = Scene::from_ron(&text(", apart_nm: 400.0", "10.0"))
             .expect_err("no room")
             .to_string();
         assert!(refused.contains("arrangements[0].apart_nm"), "{refused}");
+    }
+
+    fn scene_within(walls: &str) -> String {
+        format!(
+            "Scene(
+                    arrangements: [Random(
+                        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 300.0)]),
+                        count: 30, box_nm: (200.0, 200.0, 400.0), seed: 3,
+                    )],
+                    repulsion: Repulsion({walls}),
+                    task: Brownian(duration_ms: 0.001, temperature_k: 298.0, seed: 1),
+                )"
+        )
+    }
+
+    /// Smallest and largest distance of ends from the z axis.
+    fn from_axis(walls: &str) -> [f64; 2] {
+        let scene = Scene::from_ron(&scene_within(walls)).expect("the scene is valid");
+        let ends = scene
+            .filaments()
+            .flat_map(|one| [0.0, 300.0].map(|s| one.place_at(s)));
+        let distances: Vec<f64> = ends.map(|x| x.x.hypot(x.y)).collect();
+        [f64::min, f64::max].map(|of| distances.iter().copied().reduce(of).expect("filaments"))
+    }
+
+    /// Without walls, filaments of 300 nm extend beyond a cylinder of radius 100 nm.
+    #[test]
+    fn random_filaments_are_within_walls() {
+        let cylinder = |radius: f64, side: &str| {
+            format!(
+                "cylinders: [(at_nm: (0.0, 0.0, 5.0), axis: (0.0, 0.0, 3.0), radius_nm: {radius:?}, side: {side})]"
+            )
+        };
+        assert!(from_axis("")[1] > 150.0);
+        let inside = from_axis(&cylinder(100.0, "Inside"))[1];
+        assert!((80.0..=96.3).contains(&inside), "{inside}");
+        let outside = from_axis(&cylinder(50.0, "Outside"))[0];
+        assert!((53.7..80.0).contains(&outside), "{outside}");
+        let refused = Scene::from_ron(&scene_within(
+            "cuboids: [(at_nm: (0.0, 0.0, 0.0), size_nm: (90.0, 90.0, 90.0))]",
+        ));
+        let refused = refused.expect_err("no room").to_string();
+        assert!(refused.contains("arrangements[0].box_nm"), "{refused}");
+        let refused =
+            Scene::from_ron(&scene_within(&cylinder(-1.0, "Inside"))).expect_err("radius");
+        assert!(
+            refused
+                .to_string()
+                .contains("repulsion.cylinders[0].radius_nm"),
+            "{refused}"
+        );
     }
 
     #[test]

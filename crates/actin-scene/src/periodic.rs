@@ -1,12 +1,12 @@
 //! Periodic box, its shear and their validation.
 
 use super::rules::{finite, positive, show};
-use super::{Factor, Flow, Linker, Scene, SceneProblem, Task};
+use super::{Factor, Flow, Linker, Repulsion, Scene, SceneProblem, Task};
 use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Box that is repeated along x, y and z. Only linkers act across its faces: filaments are continuous, and a linker
-/// has the `image` of its second end.
+/// Box that is repeated along x, y and z. Linkers and repulsion act across its faces: filaments are continuous, a
+/// linker has the `image` of its second end, and filaments repel all images, including their own.
 ///
 /// A shear strain displaces the images along x in proportion to their distance along z, and so does the fluid of
 /// `Brownian`.
@@ -42,6 +42,21 @@ impl PeriodicBox {
         Vector3::from_fn(|k, _| f64::from(image[k]) * self.size_nm[k])
     }
 
+    /// Checks that the edges are positive and at least twice the contact distance (nm) of filaments.
+    pub(super) fn check_size(&self, contact: f64) -> Result<(), SceneProblem> {
+        for edge in self.size_nm {
+            positive("periodic.size_nm", edge)?;
+        }
+        let short = self.size_nm.into_iter().find(|edge| *edge < 2.0 * contact);
+        let Some(edge) = short else {
+            return Ok(());
+        };
+        let rule = format!(
+            "must be at least twice the contact distance of filaments, {contact:?} nm, which repel their images"
+        );
+        Err(SceneProblem::new("periodic.size_nm", edge, rule))
+    }
+
     /// Returns the volume (nm^3).
     pub fn volume(&self) -> f64 {
         self.size_nm.iter().product()
@@ -56,6 +71,26 @@ impl PeriodicBox {
         )]
         let image = std::array::from_fn(|k| (place[k] / self.size_nm[k]).floor() as i32);
         (image, place - self.shift(image))
+    }
+
+    /// Returns the displacements (nm) of the images of a sphere that may come within `reach` (nm) of a point, from the
+    /// vector `d` (nm) of the point to the centre.
+    pub(crate) fn shifts_within(&self, d: Vector3, reach: f64) -> Vec<Vector3> {
+        let multiples = |k: usize| {
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "saturates far outside of any filament"
+            )]
+            let [first, last] = [
+                ((-reach - d[k]) / self.size_nm[k]).ceil(),
+                ((reach - d[k]) / self.size_nm[k]).floor(),
+            ]
+            .map(|n| n as i32);
+            first..=last
+        };
+        let planes = multiples(0).flat_map(|x| multiples(1).map(move |y| (x, y)));
+        let images = planes.flat_map(|(x, y)| multiples(2).map(move |z| [x, y, z]));
+        images.map(|image| self.shift(image)).collect()
     }
 
     /// Returns the images of a position in the box (nm) that lie in the box enlarged by `reach` on all sides.
@@ -79,9 +114,8 @@ pub(super) fn check(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem
     let Some(periodic) = &scene.periodic else {
         return;
     };
-    for edge in periodic.size_nm {
-        note(positive("periodic.size_nm", edge));
-    }
+    let repulsion = scene.repulsion.as_ref();
+    note(periodic.check_size(repulsion.map_or(0.0, Repulsion::contact_nm)));
     note(check_strain(scene, periodic));
     note(check_excluded(scene));
     note(check_reach(scene, periodic));
@@ -119,8 +153,8 @@ fn check_strain(scene: &Scene, periodic: &PeriodicBox) -> Result<(), SceneProble
 }
 
 fn check_excluded(scene: &Scene) -> Result<(), SceneProblem> {
-    if scene.repulsion.is_some() {
-        let rule = "does not act between images of filaments: omit it, or omit periodic";
+    if scene.has_walls() {
+        let rule = "has walls, which are not repeated: omit them, or omit periodic";
         return Err(SceneProblem::new("repulsion", "", rule));
     }
     if let Task::Brownian(task) = &scene.task
@@ -199,35 +233,47 @@ mod tests {
         assert!((place.x - 49.0).abs() < 1e-12 && (place.y - 20.0).abs() < 1e-12);
     }
 
+    /// Replaced text, wrong text and the key of the message.
+    const MISTAKES: [(&str, &str, &str); 9] = [
+        ("90.0), strain", "-90.0), strain", "periodic.size_nm"),
+        ("strain: 0.1", "strain: 2.0", "periodic.strain"),
+        ("strain: 0.1", "", "path[0].set[0].factor"),
+        (
+            "(size_nm: (50.0, 50.0, 90.0), strain: 0.1)",
+            "(size_nm: (50.0, 50.0, 90.0), strain: 0.1, \
+              factor: Sine(period_ns: 1.0))",
+            "periodic.factor",
+        ),
+        (
+            "task: Equilibrium()",
+            "task: Dynamics(duration_ns: 1.0)",
+            "periodic.strain",
+        ),
+        (
+            "path:",
+            "repulsion: Repulsion(planes: [(at_nm: (0.0, 0.0, 0.0), normal: (1.0, 0.0, 0.0))]), path:",
+            "repulsion",
+        ),
+        (
+            "path:",
+            "repulsion: Repulsion(radius_nm: 13.0), path:",
+            "periodic.size_nm",
+        ),
+        (
+            "path: [Stage(set: [Shear(factor: 1.0)])],\n        task: Equilibrium()",
+            "task: Brownian(duration_ms: 1.0, temperature_k: 0.0, flow: Shear(rate_per_s: 1.0, along: (1.0, 0.0, 0.0), across: (0.0, 0.0, 1.0)))",
+            "task.flow",
+        ),
+        (
+            "to: Site(filament: 1, at_nm: 5.0)",
+            "anchor_nm: (0.0, 0.0, 9.0)",
+            "linkers[0].image",
+        ),
+    ];
+
     #[test]
     fn mistakes_of_periodic_scenes_are_refused() {
-        for (right, wrong, key) in [
-            ("90.0), strain", "-90.0), strain", "periodic.size_nm"),
-            ("strain: 0.1", "strain: 2.0", "periodic.strain"),
-            ("strain: 0.1", "", "path[0].set[0].factor"),
-            (
-                "(size_nm: (50.0, 50.0, 90.0), strain: 0.1)",
-                "(size_nm: (50.0, 50.0, 90.0), strain: 0.1, \
-              factor: Sine(period_ns: 1.0))",
-                "periodic.factor",
-            ),
-            (
-                "task: Equilibrium()",
-                "task: Dynamics(duration_ns: 1.0)",
-                "periodic.strain",
-            ),
-            ("path:", "repulsion: Repulsion(), path:", "repulsion"),
-            (
-                "path: [Stage(set: [Shear(factor: 1.0)])],\n        task: Equilibrium()",
-                "task: Brownian(duration_ms: 1.0, temperature_k: 0.0, flow: Shear(rate_per_s: 1.0, along: (1.0, 0.0, 0.0), across: (0.0, 0.0, 1.0)))",
-                "task.flow",
-            ),
-            (
-                "to: Site(filament: 1, at_nm: 5.0)",
-                "anchor_nm: (0.0, 0.0, 9.0)",
-                "linkers[0].image",
-            ),
-        ] {
+        for (right, wrong, key) in MISTAKES {
             let refused = Scene::from_ron(&SHEARED.replace(right, wrong)).expect_err(wrong);
             assert!(refused.to_string().contains(key), "{wrong}: {refused}");
         }

@@ -1,7 +1,9 @@
 //! Repulsion of filaments from each other and from walls, and its validation.
 
-use super::rules::{all_finite, positive, show};
+use super::rules::{all_finite, direction, each_positive, positive, show};
 use super::{Scene, SceneProblem};
+use actin_coupling::repulsion::{RepulsionError, Side, Wall};
+use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// Radius (nm) that contains a monomer: centre at 1.8 nm, radial semi-axis 1.9 nm.
@@ -34,6 +36,10 @@ pub struct Repulsion {
     pub planes: Vec<Plane>,
     /// Spherical walls.
     pub spheres: Vec<Sphere>,
+    /// Cylindrical walls.
+    pub cylinders: Vec<Cylinder>,
+    /// Boxes around the filaments.
+    pub cuboids: Vec<Cuboid>,
 }
 
 /// Plane wall.
@@ -57,17 +63,49 @@ pub struct Sphere {
     /// Radius; positive. With `Inside` it is greater than the radius of filaments.
     pub radius_nm: f64,
     /// Side of the sphere on which the filaments are.
-    pub side: SphereSide,
+    pub side: Side,
 }
 
-/// Side of a sphere.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// Cylindrical wall of infinite length.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum SphereSide {
-    /// Filaments are inside the sphere.
-    Inside,
-    /// Filaments are outside the sphere.
-    Outside,
+#[serde(deny_unknown_fields)]
+pub struct Cylinder {
+    /// Point of the axis (lab frame); finite.
+    pub at_nm: [f64; 3],
+    /// Direction of the axis (lab frame); any length except zero.
+    pub axis: [f64; 3],
+    /// Radius; positive. With `Inside` it is greater than the radius of filaments.
+    pub radius_nm: f64,
+    /// Side of the cylinder on which the filaments are.
+    pub side: Side,
+}
+
+/// Box of six plane walls around the filaments.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Cuboid {
+    /// Centre (lab frame); finite.
+    pub at_nm: [f64; 3],
+    /// Edges along x, y and z; greater than the diameter of filaments.
+    pub size_nm: [f64; 3],
+}
+
+/// Shape of a wall and its index in the list of this shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct WallName {
+    /// Name of the shape, such as `plane`.
+    pub shape: &'static str,
+    /// Index in the list of this shape.
+    pub index: usize,
+}
+
+impl WallName {
+    /// Key of the wall in a scene, such as `repulsion.planes[0]`.
+    pub fn key(self) -> String {
+        format!("repulsion.{}s[{}]", self.shape, self.index)
+    }
 }
 
 impl Default for Repulsion {
@@ -78,13 +116,34 @@ impl Default for Repulsion {
             stiffness_pn_per_nm: STIFFNESS_PN_PER_NM,
             planes: Vec::new(),
             spheres: Vec::new(),
+            cylinders: Vec::new(),
+            cuboids: Vec::new(),
         }
     }
 }
 
 impl Repulsion {
     pub(super) fn has_walls(&self) -> bool {
-        !(self.planes.is_empty() && self.spheres.is_empty())
+        !(self.planes.is_empty()
+            && self.spheres.is_empty()
+            && self.cylinders.is_empty()
+            && self.cuboids.is_empty())
+    }
+
+    /// Returns all walls in the order of shapes and indices. A cuboid has six.
+    ///
+    /// # Errors
+    /// If a number is out of its range. Scenes that are read have no such walls.
+    pub fn walls(&self) -> Result<Vec<(WallName, Wall)>, RepulsionError> {
+        let planes = named("plane", self.planes.iter().map(|one| [one.wall()]));
+        let spheres = named("sphere", self.spheres.iter().map(|one| [one.wall()]));
+        let cylinders = named("cylinder", self.cylinders.iter().map(|one| [one.wall()]));
+        let cuboids = named("cuboid", self.cuboids.iter().map(Cuboid::walls));
+        planes
+            .chain(spheres)
+            .chain(cylinders)
+            .chain(cuboids)
+            .collect()
     }
 
     /// Distance (nm) of axes below which filaments repel each other, or 0.
@@ -96,48 +155,126 @@ impl Repulsion {
         }
     }
 
+    /// Checks all numbers.
+    pub(super) fn first_problem(&self) -> Result<(), SceneProblem> {
+        let mut first = Ok(());
+        self.check(&mut |result| {
+            if first.is_ok() {
+                first = result;
+            }
+        });
+        first
+    }
+
     fn check(&self, note: &mut impl FnMut(Result<(), SceneProblem>)) {
         if !self.filaments && !self.has_walls() {
-            let rule = "repulsion has no effect: write planes or spheres, or omit this key";
+            let rule = "repulsion has no effect: write planes, spheres, cylinders or cuboids, or omit this key";
             note(Err(SceneProblem::new("repulsion.filaments", false, rule)));
         }
         note(positive("repulsion.radius_nm", self.radius_nm));
         let stiffness = self.stiffness_pn_per_nm;
         note(positive("repulsion.stiffness_pn_per_nm", stiffness));
+        let radius = self.radius_nm;
+        let key = |shape, index| WallName { shape, index }.key();
         for (i, plane) in self.planes.iter().enumerate() {
-            note(plane.check(&format!("repulsion.planes[{i}]")));
+            note(plane.check(&key("plane", i)));
         }
         for (i, sphere) in self.spheres.iter().enumerate() {
-            note(sphere.check(&format!("repulsion.spheres[{i}]"), self.radius_nm));
+            note(sphere.check(&key("sphere", i), radius));
+        }
+        for (i, cylinder) in self.cylinders.iter().enumerate() {
+            note(cylinder.check(&key("cylinder", i), radius));
+        }
+        for (i, cuboid) in self.cuboids.iter().enumerate() {
+            note(cuboid.check(&key("cuboid", i), radius));
         }
     }
 }
 
+fn named<const N: usize>(
+    shape: &'static str,
+    walls: impl Iterator<Item = [Result<Wall, RepulsionError>; N]>,
+) -> impl Iterator<Item = Result<(WallName, Wall), RepulsionError>> {
+    walls.enumerate().flat_map(move |(index, walls)| {
+        let name = WallName { shape, index };
+        walls.map(|wall| Ok((name, wall?)))
+    })
+}
+
 impl Plane {
+    fn wall(&self) -> Result<Wall, RepulsionError> {
+        Wall::plane(self.at_nm.into(), self.normal.into())
+    }
+
     fn check(&self, key: &str) -> Result<(), SceneProblem> {
         all_finite(&format!("{key}.at_nm"), self.at_nm)?;
-        let key = format!("{key}.normal");
-        all_finite(&key, self.normal)?;
-        if self.normal.iter().all(|n| n.abs() <= 0.0) {
-            let rule = "must not be zero";
-            return Err(SceneProblem::new(key, show(self.normal), rule));
-        }
-        Ok(())
+        direction(&format!("{key}.normal"), self.normal)
     }
 }
 
 impl Sphere {
+    fn wall(&self) -> Result<Wall, RepulsionError> {
+        Wall::sphere(self.at_nm.into(), self.radius_nm, self.side)
+    }
+
     fn check(&self, key: &str, of_filaments: f64) -> Result<(), SceneProblem> {
         all_finite(&format!("{key}.at_nm"), self.at_nm)?;
-        let key = format!("{key}.radius_nm");
-        positive(&key, self.radius_nm)?;
-        if self.side == SphereSide::Inside && self.radius_nm <= of_filaments {
-            let rule =
-                format!("must be greater than the radius of filaments inside, {of_filaments:?}");
-            return Err(SceneProblem::new(key, show(self.radius_nm), rule));
+        check_radius(key, (self.radius_nm, self.side), of_filaments)
+    }
+}
+
+impl Cylinder {
+    fn wall(&self) -> Result<Wall, RepulsionError> {
+        Wall::cylinder(
+            self.at_nm.into(),
+            self.axis.into(),
+            self.radius_nm,
+            self.side,
+        )
+    }
+
+    fn check(&self, key: &str, of_filaments: f64) -> Result<(), SceneProblem> {
+        all_finite(&format!("{key}.at_nm"), self.at_nm)?;
+        direction(&format!("{key}.axis"), self.axis)?;
+        check_radius(key, (self.radius_nm, self.side), of_filaments)
+    }
+}
+
+impl Cuboid {
+    fn walls(&self) -> [Result<Wall, RepulsionError>; 6] {
+        let centre = Vector3::from(self.at_nm);
+        [0, 1, 2, 3, 4, 5].map(|face| {
+            let outward = Vector3::ith(face / 2, if face % 2 == 0 { -1.0 } else { 1.0 });
+            Wall::plane(centre + outward * (0.5 * self.size_nm[face / 2]), -outward)
+        })
+    }
+
+    fn check(&self, key: &str, of_filaments: f64) -> Result<(), SceneProblem> {
+        all_finite(&format!("{key}.at_nm"), self.at_nm)?;
+        let key = format!("{key}.size_nm");
+        each_positive(&key, self.size_nm)?;
+        if self.size_nm.iter().any(|edge| *edge <= 2.0 * of_filaments) {
+            let diameter = 2.0 * of_filaments;
+            let rule = format!("each must be greater than the diameter of filaments, {diameter:?}");
+            return Err(SceneProblem::new(key, show(self.size_nm), rule));
         }
         Ok(())
     }
+}
+
+/// Checks the radius of a round wall, which contains filaments inside.
+fn check_radius(
+    key: &str,
+    (radius_nm, side): (f64, Side),
+    of_filaments: f64,
+) -> Result<(), SceneProblem> {
+    let key = format!("{key}.radius_nm");
+    positive(&key, radius_nm)?;
+    if side == Side::Inside && radius_nm <= of_filaments {
+        let rule = format!("must be greater than the radius of filaments inside, {of_filaments:?}");
+        return Err(SceneProblem::new(key, show(radius_nm), rule));
+    }
+    Ok(())
 }
 
 pub(super) fn check(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {

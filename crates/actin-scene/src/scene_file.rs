@@ -2,8 +2,8 @@
 
 use super::validate::check_filament;
 use super::{
-    Arrangement, Clamp, Crosslinkers, Filament, Linker, LinkersBetween, Load, Observable, Output,
-    PeriodicBox, Repulsion, Scene, SceneProblem, Stage, Task,
+    Arrangement, Bead, Clamp, Crosslinkers, Filament, Linker, LinkersBetween, Load, Observable,
+    Output, PeriodicBox, Repulsion, Scene, SceneProblem, Stage, Task,
 };
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +39,9 @@ pub(super) struct SceneFile {
     /// Crosslinkers and motors that bind to filaments and unbind from them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     crosslinkers: Vec<Crosslinkers>,
+    /// Beads on filaments, for optical traps.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    beads: Vec<Bead>,
     /// Repulsion of filaments from each other and from walls; by default none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     repulsion: Option<Repulsion>,
@@ -95,6 +98,7 @@ impl TryFrom<SceneFile> for Scene {
             clamps: written.clamps,
             loads: written.loads,
             linkers,
+            beads: written.beads,
             repulsion: written.repulsion,
             periodic: written.periodic,
             path: written.path,
@@ -108,13 +112,15 @@ impl TryFrom<SceneFile> for Scene {
 
 /// Appends the arranged filaments.
 fn arrange(written: &SceneFile, filaments: &mut Vec<Filament>) -> Result<(), SceneProblem> {
-    let repulsion = written.repulsion.as_ref();
+    let (repulsion, periodic) = (written.repulsion.as_ref(), written.periodic.as_ref());
     let contact = repulsion.map_or(0.0, Repulsion::contact_nm);
     for (k, arrangement) in written.arrangements.iter().enumerate() {
         let mut one = arrangement.filament().clone();
         one.monomers.resolve();
+        repulsion.map_or(Ok(()), Repulsion::first_problem)?;
+        periodic.map_or(Ok(()), |periodic| periodic.check_size(contact))?;
         check_filament(&one, &format!("arrangements[{k}].filament"))?;
-        let arranged = arrangement.filaments(k, filaments, contact)?;
+        let arranged = arrangement.filaments(k, filaments, (repulsion, periodic))?;
         filaments.extend(arranged);
     }
     Ok(())
@@ -176,6 +182,7 @@ impl From<Scene> for SceneFile {
             linkers,
             linker_sets: Vec::new(),
             crosslinkers,
+            beads: scene.beads,
             repulsion: scene.repulsion,
             periodic: scene.periodic,
             path: scene.path,

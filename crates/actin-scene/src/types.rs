@@ -2,8 +2,8 @@
 
 use super::model::{JunctionModel, Monomers, RodModel};
 use super::{
-    Brownian, DragModel, Imperfection, Linker, Load, Observable, Output, PeriodicBox, Quantity,
-    Repulsion, Sections, Shape, Thermal, scene_file::SceneFile,
+    Bead, Brownian, DragModel, Imperfection, Linker, Load, Observable, Output, PeriodicBox,
+    Quantity, Repulsion, Sections, Shape, Thermal, scene_file::SceneFile,
 };
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +26,8 @@ pub struct Scene {
     pub loads: Vec<Load>,
     /// Springs from sites to fixed points or to other sites.
     pub linkers: Vec<Linker>,
+    /// Beads on filaments.
+    pub beads: Vec<Bead>,
     /// Repulsion of filaments from each other and from walls.
     pub repulsion: Option<Repulsion>,
     /// Periodic box and its shear.

@@ -7,8 +7,8 @@ use super::rules::{
 use super::support::{check_support, check_swings};
 use super::{
     Adaptive, Anchors, Clamp, ClampedEnds, Dynamics, End, Equilibrium, Filament, FreeTranslation,
-    Hold, Monomers, Quantity, Resultant, Scene, SceneProblem, StopTolerances, Task, brownian, drag,
-    imperfection, kinetics, linker, load_rules, magnitude, observable, periodic, repulsion,
+    Hold, Monomers, Quantity, Resultant, Scene, SceneProblem, StopTolerances, Task, bead, brownian,
+    drag, imperfection, kinetics, linker, load_rules, magnitude, observable, periodic, repulsion,
     saddles, section_rules, shape, stage, thermal,
 };
 use actin_ellipsoid::{MAX_POINTS, MIN_POINTS};
@@ -52,6 +52,9 @@ pub(super) fn problems(scene: &Scene, most: usize) -> Vec<SceneProblem> {
     }
     for (i, linker) in scene.linkers.iter().enumerate() {
         note(linker::check(scene, i, linker));
+    }
+    for (i, bead) in scene.beads.iter().enumerate() {
+        note(bead::check(scene, i, bead));
     }
     repulsion::check(scene, &mut note);
     periodic::check(scene, &mut note);

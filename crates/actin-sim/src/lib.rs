@@ -42,16 +42,16 @@ pub use actin_scene::fitted_laws;
 #[cfg(feature = "schema")]
 pub use actin_scene::schema;
 pub use actin_scene::{
-    Acceleration, Adaptive, AdaptiveResolution, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking,
-    Brownian, Catch, Clamp, Couple, CouplePerLength, DragModel, DragRates, Dynamics, End,
-    Equilibrium, Factor, Filament, Flow, Fluid, Force, ForceLaw, ForcePerLength, Forming,
-    FreeTranslation, Hinge, Hold, Imperfection, Integrator, Interfaces, JunctionModel,
-    JunctionWeight, Kinetics, Linker, LinkerSite, Load, Material, MonomerChanges, Monomers,
-    Observable, Output, Override, PeriodicBox, Plane, Point, Quantity, RandomPart,
+    Acceleration, Adaptive, AdaptiveResolution, Anchors, BOLTZMANN_PN_NM_PER_K, Bead, BendLaw,
+    Breaking, Brownian, Catch, Clamp, Couple, CouplePerLength, Cuboid, Cylinder, DragModel,
+    DragRates, Dynamics, End, Equilibrium, Factor, Filament, Flow, Fluid, Force, ForceLaw,
+    ForcePerLength, Forming, FreeTranslation, Hinge, Hold, Imperfection, Integrator, Interfaces,
+    JunctionModel, JunctionWeight, Kinetics, Linker, LinkerSite, Load, Material, MonomerChanges,
+    Monomers, Observable, Output, Override, PeriodicBox, Plane, Point, Quantity, RandomPart,
     RefinementCriterion, Repulsion, Roaming, RodChanges, RodLaw, RodLaws, RodModel, RotaryInertia,
     Scene, SceneError, SceneKind, SceneProblem, SceneText, SceneValue, Section, Sections, Setting,
-    Shape, ShearLaw, Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Target, Task,
-    Thermal, TimeCourse, TwistLaw, TwistRise, TwistStretchLaw, Water,
+    Shape, ShearLaw, Side, Sphere, Stage, Stepping, StopTolerances, StretchLaw, Target, Task,
+    Thermal, TimeCourse, TwistLaw, TwistRise, TwistStretchLaw, WallName, Water,
 };
 pub use actin_scene::{ParseReport, read_all, read_ron, to_ron};
 pub use assembly::{

@@ -205,15 +205,18 @@ pub(super) fn push_blocks<const N: usize>(
     stiffness: &mut Stiffness,
 ) {
     for (k, &(first, (a, slopes_a))) in bodies.iter().enumerate() {
-        for &(second, (b, slopes_b)) in &bodies[k..] {
+        for (l, &(second, (b, slopes_b))) in bodies.iter().enumerate().skip(k) {
             let mut block = Matrix3::zeros();
             for (e, slope_a) in slopes_a.iter().enumerate() {
                 for (f, slope_b) in slopes_b.iter().enumerate() {
                     block += slope_a.transpose() * tangents[first + e][second + f] * slope_b;
                 }
             }
-            if a == b {
+            if k == l {
                 block = 0.5 * (block + block.transpose());
+            } else if a == b {
+                // A body and its periodic image: block and transpose are on the diagonal.
+                block += block.transpose();
             }
             stiffness.push_link(a, b, block);
         }

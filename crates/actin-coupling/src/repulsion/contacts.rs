@@ -1,11 +1,12 @@
 use super::capsule::{Capsule, Follows, MARGIN, RepulsionError, Row, positive, push_blocks};
 use super::kernel::{Kernel, Tangent};
-use super::neighbours::{Neighbours, Reach};
+use super::neighbours::{NeighbourPair, Neighbours, Reach};
 use super::pair::Pair;
 use super::passing::{self, Limit};
+use crate::PeriodicCell;
 use actin_mechanics::{
-    Approach, Coordinates, Interaction, Loads, RandomStress, SecondOrder, State, StepStress,
-    Stiffness, segments,
+    Approach, Coordinates, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State,
+    StepStress, Stiffness, segments,
 };
 use std::f64::consts::PI;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -38,7 +39,8 @@ pub struct ContactParameters {
 
 /// Repulsion between capsules: term `repulsion`, one element per capsule with half the energy of
 /// each of its contacts. Parts of the same filament interact if their contour distance exceeds a
-/// limit.
+/// limit. In a periodic box, a capsule also interacts with the images of all capsules, including its
+/// own.
 ///
 /// ```text
 /// E = sum_ab w_a w_b e (1 - r_ab^2/D^2)^4,   e = 27 k / (32 pi)
@@ -81,6 +83,8 @@ pub struct Gap {
     pub capsules: [usize; 2],
     /// Arc lengths of the nearest points (nm).
     pub places: [f64; 2],
+    /// Index of the periodic image of the second capsule; zero for the capsule itself.
+    pub image: [i32; 3],
 }
 
 impl Contacts {
@@ -138,9 +142,29 @@ impl Contacts {
                 known: (2.0 + MARGIN) * radius,
                 skin: SKIN * radius,
                 apart,
+                cell: None,
             },
             neighbours: Mutex::default(),
         })
+    }
+
+    /// Adds contacts with the images of a periodic box.
+    #[must_use]
+    pub fn with_cell(mut self, cell: Option<PeriodicCell>) -> Self {
+        self.reach.cell = cell;
+        self
+    }
+
+    /// Contribution `sum r F^T` of contacts with periodic images to the virial (pN nm): `r` is the
+    /// displacement of the image, and `F` the force on the other capsule (pN, lab frame).
+    pub fn periodic_virial(&self, state: &State) -> Matrix3 {
+        let lattice = self.reach.cell.map(|cell| cell.lattice(state));
+        let mut virial = Matrix3::zeros();
+        self.visit(state, self.kernel.reach, |pair, places| {
+            let [forces, _] = places.forces(&self.kernel);
+            virial += pair.shift(lattice) * (forces[0] + forces[1]).transpose();
+        });
+        virial
     }
 
     /// Number of pairs in the neighbour list of `state`.
@@ -164,8 +188,10 @@ impl Contacts {
     pub fn closest(&self, state: &State) -> Option<Gap> {
         let mut least: Option<Gap> = None;
         let known = self.neighbours(state);
-        for &[i, j] in &known.pairs {
-            let nearest = segments::nearest_points(known.ends[i], known.ends[j]);
+        for pair in &known.pairs {
+            let [i, j] = pair.capsules;
+            let [a, b] = pair.ends(&known.ends, known.lattice);
+            let nearest = segments::nearest_points(a, b);
             let gap = nearest.squared.sqrt() - 2.0 * self.radius;
             let is_least = least.is_none_or(|least| gap < least.gap);
             if gap <= MARGIN * self.radius && is_least {
@@ -174,11 +200,11 @@ impl Contacts {
                 };
                 let [a, b] = nearest.shares;
                 let places = [at(&self.capsules[i], a), at(&self.capsules[j], b)];
-                let capsules = [i, j];
                 least = Some(Gap {
                     gap,
-                    capsules,
+                    capsules: pair.capsules,
                     places,
+                    image: pair.image,
                 });
             }
         }
@@ -202,19 +228,21 @@ impl Contacts {
         most: usize,
     ) -> Vec<([usize; 2], f64)> {
         let later: Vec<_> = self.capsules.iter().map(|c| c.ends(to)).collect();
+        let lattice = self.reach.cell.map(|cell| cell.lattice(to));
         let mut known = self.neighbours(from);
         let reach = (&self.reach, limit.least);
-        let pairs = known.meeting_on_the_way(&self.capsules, &later, reach);
-        let approach = |&[i, j]: &[usize; 2]| {
-            let ends = [i, j].map(|k| self.capsules[k].ends(from));
-            let fraction = passing::reaches(limit, ends, [later[i], later[j]])?;
-            Some(([i, j], fraction))
+        let pairs = known.meeting_on_the_way(&self.capsules, (&later, lattice), reach);
+        let approach = |pair: &NeighbourPair| {
+            let ends = pair.ends(&known.ends, known.lattice);
+            let fraction = passing::reaches(limit, ends, pair.ends(&later, lattice))?;
+            Some((pair.capsules, fraction))
         };
         pairs.iter().filter_map(approach).take(most).collect()
     }
 
     fn push_stiffness(&self, state: &State, stiffness: &mut Stiffness, tangent: Tangent) {
-        self.visit(state, self.reach.known, |[i, j], places| {
+        self.visit(state, self.reach.known, |pair, places| {
+            let [i, j] = pair.capsules;
             let tangents = places.tangents(&self.kernel, tangent);
             let (a, b) = (&self.capsules[i], &self.capsules[j]);
             let (of_a, of_b) = (a.slopes(state), b.slopes(state));
@@ -226,18 +254,17 @@ impl Contacts {
         }
         self.visit(state, self.reach.known, |pair, places| {
             let forces = places.forces(&self.kernel);
-            for (i, forces) in pair.into_iter().zip(forces) {
+            for (i, forces) in pair.capsules.into_iter().zip(forces) {
                 self.capsules[i].push_curvature(forces, state, stiffness);
             }
         });
     }
 
-    fn visit(&self, state: &State, within: f64, mut visit: impl FnMut([usize; 2], &Pair)) {
+    fn visit(&self, state: &State, within: f64, mut visit: impl FnMut(&NeighbourPair, &Pair)) {
         let known = self.neighbours(state);
-        for [i, j] in known.within(within) {
-            let ends = [known.ends[i], known.ends[j]];
-            let rows = [self.rows[i], self.rows[j]];
-            visit([i, j], &Pair { ends, rows });
+        for (pair, ends) in known.within(within) {
+            let rows = pair.capsules.map(|i| self.rows[i]);
+            visit(pair, &Pair { ends, rows });
         }
     }
 }
@@ -250,7 +277,7 @@ impl Interaction for Contacts {
     fn add_loads(&self, state: &State, loads: &mut Loads) {
         self.visit(state, self.kernel.reach, |pair, places| {
             let forces = places.forces(&self.kernel);
-            for (i, forces) in pair.into_iter().zip(forces) {
+            for (i, forces) in pair.capsules.into_iter().zip(forces) {
                 self.capsules[i].add_forces(forces, state, loads);
             }
         });
@@ -265,7 +292,7 @@ impl Interaction for Contacts {
         energies.fill(0.0);
         self.visit(state, self.kernel.reach, |pair, places| {
             let half = 0.5 * places.energy(&self.kernel);
-            for i in pair {
+            for i in pair.capsules {
                 energies[i] += half;
             }
         });

@@ -2,8 +2,9 @@
 //!
 //! The axis of a filament is divided into [`Capsule`]s: segments of a rod, or the axial part of
 //! each monomer. Both resolutions thus have the same surface. [`Contacts`] repels capsules from
-//! each other, and [`WallContact`] repels capsules from a plane or a sphere. [`Tethers`] have the
-//! largest possible contact stiffness, which gives a bound for the time step.
+//! each other, also across the faces of a periodic box, and [`WallContact`] repels capsules from a
+//! [`Wall`]. [`Tethers`] have the largest possible contact stiffness, which gives a bound for the
+//! time step.
 //!
 //! # Integration along axes
 //! The smallest distance of two capsules is not twice differentiable if they are parallel, or if a
@@ -13,14 +14,17 @@
 
 mod capsule;
 mod contacts;
+mod images;
 mod kernel;
 mod neighbours;
 mod pair;
 mod passing;
 mod tethers;
 mod wall;
+mod wall_contact;
 
 pub use capsule::{Axis, Capsule, RepulsionError};
 pub use contacts::{ContactParameters, Contacts, Gap};
 pub use tethers::Tethers;
-pub use wall::{Side, Wall, WallContact};
+pub use wall::{Side, Wall};
+pub use wall_contact::WallContact;

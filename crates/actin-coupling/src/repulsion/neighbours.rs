@@ -1,10 +1,8 @@
 use super::Capsule;
+use super::images::{Bounds, meeting};
+use crate::PeriodicCell;
+use crate::periodic::Lattice;
 use actin_mechanics::{State, Vector3, segments};
-use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
-
-/// Largest coordinate (nm); a motion beyond it has diverged.
-const FARTHEST: f64 = 1e12;
 
 /// A list that is used less often than this before it must be renewed is made longer.
 const FEW_USES: u32 = 16;
@@ -24,6 +22,32 @@ pub(super) struct Reach {
     pub(super) skin: f64,
     /// Smallest contour distance (nm) of interacting parts of one filament.
     pub(super) apart: f64,
+    /// Periodic box; `None` in open space.
+    pub(super) cell: Option<PeriodicCell>,
+}
+
+/// Pair of a capsule and a periodic image of a capsule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct NeighbourPair {
+    /// Ascending indices; equal for a capsule and its own image.
+    pub(super) capsules: [usize; 2],
+    /// Index of the image of the second capsule.
+    pub(super) image: [i32; 3],
+}
+
+impl NeighbourPair {
+    /// Displacement of the image (nm, lab frame).
+    pub(super) fn shift(&self, lattice: Option<Lattice>) -> Vector3 {
+        let image = Vector3::from(self.image.map(f64::from));
+        lattice.map_or_else(Vector3::zeros, |lattice| lattice.shift(image))
+    }
+
+    /// Ends of both axes (nm, lab frame).
+    pub(super) fn ends(&self, all: &[[Vector3; 2]], lattice: Option<Lattice>) -> [[Vector3; 2]; 2] {
+        let [i, j] = self.capsules;
+        let shift = self.shift(lattice);
+        [all[i], all[j].map(|end| end + shift)]
+    }
 }
 
 /// Neighbour list and current axes.
@@ -33,25 +57,31 @@ pub(super) struct Reach {
 /// motion between uses.
 #[derive(Debug, Default)]
 pub(super) struct Neighbours {
-    /// Pairs with ascending indices, sorted.
-    pub(super) pairs: Vec<[usize; 2]>,
+    /// Sorted pairs.
+    pub(super) pairs: Vec<NeighbourPair>,
     /// Current squared distance of each pair (nm^2).
     squares: Vec<f64>,
     /// Capsules that have moved since the last use.
     moved: Vec<bool>,
     /// Current ends of all axes (nm, lab frame).
     pub(super) ends: Vec<[Vector3; 2]>,
+    /// Current lattice of images.
+    pub(super) lattice: Option<Lattice>,
     found_at: Vec<[Vector3; 2]>,
+    found_in: Option<Lattice>,
     skin: f64,
     /// Number of uses of the list.
     uses: u32,
 }
 
 impl Neighbours {
-    /// Updates the axes and distances, and the list if a capsule has moved by more than half the
-    /// skin.
+    /// Updates the axes and distances, and the list if capsules may have moved by more than the
+    /// skin relative to each other.
     pub(super) fn update(&mut self, capsules: &[Capsule], state: &State, reach: &Reach) {
         let is_listed = self.ends.len() == capsules.len();
+        let lattice = reach.cell.map(|cell| cell.lattice(state));
+        let is_strained = self.lattice != lattice;
+        self.lattice = lattice;
         if !is_listed {
             self.ends = capsules.iter().map(|capsule| capsule.ends(state)).collect();
             return self.find(capsules, reach, 0.0);
@@ -62,8 +92,7 @@ impl Neighbours {
             self.moved.push(*ends != now);
             *ends = now;
         }
-        // Two capsules can approach each other at twice this distance.
-        if 2.0 * farthest(&self.found_at, &self.ends) > self.skin {
+        if self.moved_since_found(reach) > self.skin {
             let factor = match self.uses {
                 uses if uses < FEW_USES => CHANGE,
                 uses if uses > MANY_USES => 1.0 / CHANGE,
@@ -71,21 +100,34 @@ impl Neighbours {
             };
             return self.find(capsules, reach, factor * self.skin);
         }
-        if self.moved.iter().any(|moved| *moved) {
+        if is_strained || self.moved.iter().any(|moved| *moved) {
             self.uses = self.uses.saturating_add(1);
-            for (&[i, j], square) in self.pairs.iter().zip(&mut self.squares) {
-                if self.moved[i] || self.moved[j] {
-                    *square = segments::nearest_points(self.ends[i], self.ends[j]).squared;
+            for (pair, square) in self.pairs.iter().zip(&mut self.squares) {
+                let [i, j] = pair.capsules;
+                if is_strained || self.moved[i] || self.moved[j] {
+                    let [a, b] = pair.ends(&self.ends, self.lattice);
+                    *square = segments::nearest_points(a, b).squared;
                 }
             }
         }
     }
 
-    /// Pairs within a distance (nm) of at most `known`.
-    pub(super) fn within(&self, distance: f64) -> impl Iterator<Item = [usize; 2]> {
+    /// Upper bound of the relative displacement (nm) since the last search of two axes within the
+    /// skin of `known`.
+    fn moved_since_found(&self, reach: &Reach) -> f64 {
+        let moves = (self.found_at.as_slice(), self.ends.as_slice());
+        let longest = reach.known + self.skin;
+        relative_displacement(moves, [self.found_in, self.lattice], longest)
+    }
+
+    /// Pairs within a distance (nm) of at most `known`, with the ends of both axes.
+    pub(super) fn within(
+        &self,
+        distance: f64,
+    ) -> impl Iterator<Item = (&NeighbourPair, [[Vector3; 2]; 2])> {
         let pairs = self.pairs.iter().zip(&self.squares);
         let near = pairs.filter(move |(_, square)| **square < distance * distance);
-        near.map(|(pair, _)| *pair)
+        near.map(|(pair, _)| (pair, pair.ends(&self.ends, self.lattice)))
     }
 
     fn find(&mut self, capsules: &[Capsule], reach: &Reach, skin: f64) {
@@ -95,32 +137,36 @@ impl Neighbours {
         let boxes: Vec<_> = self.ends.iter().map(Bounds::new).collect();
         self.pairs.clear();
         self.squares.clear();
-        for [i, j] in meeting(&boxes, capsules, reach.apart, cutoff) {
-            let nearest = segments::nearest_points(self.ends[i], self.ends[j]);
+        let lattices = self.lattice.map(|lattice| [lattice; 2]);
+        for pair in meeting(&[&boxes, &boxes], lattices, (capsules, reach.apart), cutoff) {
+            let [a, b] = pair.ends(&self.ends, self.lattice);
+            let nearest = segments::nearest_points(a, b);
             if nearest.squared < cutoff * cutoff {
-                self.pairs.push([i, j]);
+                self.pairs.push(pair);
                 self.squares.push(nearest.squared);
             }
         }
         self.found_at.clone_from(&self.ends);
+        self.found_in = self.lattice;
     }
 
-    /// Pairs that may come within `least` (nm) on straight paths to `later`.
+    /// Pairs that may come within `least` (nm) on straight paths to `later` in a lattice.
     pub(super) fn meeting_on_the_way(
         &mut self,
         capsules: &[Capsule],
-        later: &[[Vector3; 2]],
+        (later, lattice): (&[[Vector3; 2]], Option<Lattice>),
         (reach, least): (&Reach, f64),
-    ) -> Vec<[usize; 2]> {
-        let needed = 2.0 * farthest(&self.ends, later) + least - reach.known;
+    ) -> Vec<NeighbourPair> {
+        let path = relative_displacement((&self.ends, later), [self.lattice, lattice], least);
+        let needed = path + least - reach.known;
         if needed > THICKEST * reach.skin {
-            let ways = self.ends.iter().zip(later);
-            let boxes: Vec<_> = ways
-                .map(|way| Bounds::new(way.0).with(&Bounds::new(way.1)))
-                .collect();
-            return meeting(&boxes, capsules, reach.apart, least);
+            let boxes = [self.ends.as_slice(), later]
+                .map(|ends| -> Vec<_> { ends.iter().map(Bounds::new).collect() });
+            let lattices = self.lattice.zip(lattice).map(<[Lattice; 2]>::from);
+            let ways = [boxes[0].as_slice(), &boxes[1]];
+            return meeting(&ways, lattices, (capsules, reach.apart), least);
         }
-        if needed > self.skin - 2.0 * farthest(&self.found_at, &self.ends) {
+        if needed > self.skin - self.moved_since_found(reach) {
             self.find(capsules, reach, CHANGE * needed);
         }
         let ways = self.ends.iter().zip(later);
@@ -128,19 +174,57 @@ impl Neighbours {
             .map(|([a, b], [c, d])| (a - c).norm().max((b - d).norm()))
             .collect();
         let pairs = self.pairs.iter().zip(&self.squares);
-        let may_meet = |pair: [usize; 2], square: f64| {
-            let path: f64 = pair.iter().map(|i| lengths[*i]).sum();
+        let may_meet = |pair: &NeighbourPair, square: f64| {
+            let strained = (pair.shift(lattice) - pair.shift(self.lattice)).norm();
+            let path = pair.capsules.iter().map(|i| lengths[*i]).sum::<f64>() + strained;
             path > 0.0 && square < (path + least).powi(2)
         };
-        let meeting = pairs.filter(|(pair, square)| may_meet(**pair, **square));
+        let meeting = pairs.filter(|(pair, square)| may_meet(pair, **square));
         meeting.map(|(pair, _)| *pair).collect()
     }
 }
 
-/// Largest displacement of an end (nm); infinite if not finite.
-fn farthest(from: &[[Vector3; 2]], to: &[[Vector3; 2]]) -> f64 {
-    let moved = |([a, b], [c, d]): (&[Vector3; 2], &[Vector3; 2])| {
-        let squares = [(a - c).norm_squared(), (b - d).norm_squared()];
+/// Upper bound of the relative displacement (nm) of two axes, or of an axis and an image. They are
+/// within a distance `d` (nm) in the second state or on the straight path to it.
+///
+/// ```text
+/// 2 (1 + |g|) (max |u| + |g' - g| max |x' - x|) + |g' - g| d
+/// ```
+///
+/// `x` and `x'` are positions, `g` and `g'` the strains, and `u` the displacement without strain,
+/// which is the same for all images.
+fn relative_displacement(
+    (from, to): (&[[Vector3; 2]], &[[Vector3; 2]]),
+    lattices: [Option<Lattice>; 2],
+    distance: f64,
+) -> f64 {
+    let [Some(first), Some(second)] = lattices else {
+        return 2.0 * farthest((from, to), |x| x, |x| x);
+    };
+    let unstrained = farthest(
+        (from, to),
+        |x| first.unstrained(x),
+        |x| second.unstrained(x),
+    );
+    let change = (second.strain - first.strain).abs();
+    // Without a change of strain, the product with an infinite displacement would not be a number.
+    let strained = if change > 0.0 {
+        change * farthest((from, to), |x| x, |x| x)
+    } else {
+        0.0
+    };
+    2.0 * (1.0 + first.strain.abs()) * (unstrained + strained) + change * distance
+}
+
+/// Largest displacement of an end between two states with a map of the positions of each (nm);
+/// infinite if not finite.
+fn farthest(
+    (from, to): (&[[Vector3; 2]], &[[Vector3; 2]]),
+    first: impl Fn(Vector3) -> Vector3,
+    second: impl Fn(Vector3) -> Vector3,
+) -> f64 {
+    let moved = |(from, to): (&[Vector3; 2], &[Vector3; 2])| {
+        let squares = [0, 1].map(|end| (first(from[end]) - second(to[end])).norm_squared());
         squares.map(|square| {
             if square.is_finite() {
                 square
@@ -151,51 +235,4 @@ fn farthest(from: &[[Vector3; 2]], to: &[[Vector3; 2]]) -> f64 {
     };
     let squares = from.iter().zip(to).flat_map(moved);
     squares.fold(0.0, f64::max).sqrt()
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Bounds {
-    lower: Vector3,
-    upper: Vector3,
-}
-
-impl Bounds {
-    fn new([a, b]: &[Vector3; 2]) -> Self {
-        Self {
-            lower: a.inf(b),
-            upper: a.sup(b),
-        }
-    }
-
-    fn with(&self, other: &Self) -> Self {
-        Self {
-            lower: self.lower.inf(&other.lower),
-            upper: self.upper.sup(&other.upper),
-        }
-    }
-
-    fn is_near(&self) -> bool {
-        self.lower.amax() < FARTHEST && self.upper.amax() < FARTHEST
-    }
-}
-
-fn meeting(boxes: &[Bounds], capsules: &[Capsule], apart: f64, within: f64) -> Vec<[usize; 2]> {
-    let near = || boxes.iter().enumerate().filter(|(_, b)| b.is_near());
-    let leaves = near().map(|(i, b)| {
-        let corners: [[f64; 3]; 2] = [b.lower.into(), b.upper.into()];
-        GeomWithData::new(Rectangle::from_corners(corners[0], corners[1]), i)
-    });
-    let tree = RTree::bulk_load(leaves.collect());
-    let margin = Vector3::repeat(within);
-    let mut pairs = Vec::new();
-    for (i, b) in near() {
-        let around = AABB::from_corners((b.lower - margin).into(), (b.upper + margin).into());
-        let others = tree
-            .locate_in_envelope_intersecting(around)
-            .map(|leaf| leaf.data);
-        let touching = others.filter(|&j| j > i && capsules[i].may_touch(&capsules[j], apart));
-        pairs.extend(touching.map(|j| [i, j]));
-    }
-    pairs.sort_unstable();
-    pairs
 }

@@ -1,337 +1,162 @@
-use super::capsule::{Capsule, MARGIN, RepulsionError, Row, positive, push_blocks};
-use super::contacts::Gap;
-use super::kernel::WallKernel;
-use super::passing::{self, Limit};
-use actin_mechanics::{
-    Approach, Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
-    segments,
-};
+use super::capsule::{RepulsionError, positive};
+use actin_mechanics::{Matrix3, Vector3, segments};
 
-/// Distance of an axis from a sphere up to which filaments approach in one iteration, in radii.
-const MEETING: f64 = 0.8;
-/// Fraction of the initial distance from the centre that closer filaments keep.
-const KEPT: f64 = 0.99;
-
-/// Surface that confines filaments to one side.
+/// Surface that confines filaments to one side: a plane, a sphere or a cylinder of infinite length.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Wall {
-    /// Plane; filaments are on the side of the normal.
-    Plane {
-        /// Point of the plane (nm, lab frame).
-        point: Vector3,
-        /// Normal of any nonzero length.
-        normal: Vector3,
-    },
-    /// Sphere.
-    Sphere {
-        /// Centre (nm, lab frame).
-        centre: Vector3,
-        /// Radius (nm).
-        radius: f64,
-        /// Side of the filaments.
-        side: Side,
-    },
+pub struct Wall {
+    /// Point of the plane, centre, or point of the axis (nm, lab frame).
+    point: Vector3,
+    /// Unit normal of a plane, unit axis of a cylinder, zero for a sphere.
+    axis: Vector3,
+    /// Radius (nm) and side of the filaments; `None` for a plane.
+    round: Option<(f64, Side)>,
 }
 
-/// Side of a sphere.
+/// Side of a sphere or cylinder on which the filaments are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Side {
-    /// Inside of the sphere.
+    /// Filaments are inside.
     Inside,
-    /// Outside of the sphere.
+    /// Filaments are outside.
     Outside,
 }
 
-/// Repulsion of capsules from a wall: term `repulsion`, one element per capsule.
-///
-/// ```text
-/// E = sum w k p^4 / (24 R^3)
-/// ```
-///
-/// The sum runs over the points of the axis with length `w` (nm) and penetration depth `p` (nm).
-/// `k` is the stiffness (pN/nm) and `R` the radius of the filaments (nm). A piece of length `2 R`
-/// whose axis is in the surface of the wall has the stiffness `k`.
-#[derive(Clone, Debug)]
-pub struct WallContact {
-    capsules: Vec<Capsule>,
-    rows: Vec<Row>,
-    wall: Wall,
-    kernel: WallKernel,
-}
-
-/// Point of an axis in contact: depth, gradient and curvature of the wall distance.
-struct ContactPoint {
-    depth: f64,
-    away: Vector3,
-    curving: f64,
-    share: f64,
-    weight: f64,
-}
-
-impl WallContact {
-    /// Creates the contacts of capsules of a `radius` (nm) with a wall of a `stiffness` (pN/nm).
+impl Wall {
+    /// Creates a plane through a point (nm, lab frame). Filaments are on the side of the normal, a
+    /// vector of any nonzero length.
     ///
     /// # Errors
-    /// If a number is not positive and finite, the normal is zero or not finite, or the inside of
-    /// the sphere is too small.
-    pub fn new(
-        capsules: Vec<Capsule>,
-        wall: Wall,
-        radius: f64,
-        stiffness: f64,
-    ) -> Result<Self, RepulsionError> {
-        positive("radius", radius)?;
-        positive("stiffness", stiffness)?;
-        let refused = |key, value, rule| Err(RepulsionError { key, value, rule });
-        let wall = match wall {
-            Wall::Plane { point, normal } => {
-                // Scaling avoids overflow and underflow of the squares.
-                let unit = (normal / normal.amax()).normalize();
-                if !unit.iter().chain(&point).all(|v| v.is_finite()) {
-                    return refused("normal", normal.norm(), "finite and not zero");
-                }
-                Wall::Plane {
-                    point,
-                    normal: unit,
-                }
-            }
-            Wall::Sphere {
-                radius: of_sphere,
-                side,
-                ..
-            } => {
-                positive("radius of a sphere", of_sphere)?;
-                if side == Side::Inside && of_sphere <= radius {
-                    let rule = "greater than the radius of filaments inside";
-                    return refused("radius of a sphere", of_sphere, rule);
-                }
-                wall
-            }
-        };
+    /// If the normal is zero, or a component is not finite.
+    pub fn plane(point: Vector3, normal: Vector3) -> Result<Self, RepulsionError> {
         Ok(Self {
-            rows: capsules.iter().map(|c| Row::new(c, radius)).collect(),
-            capsules,
-            wall,
-            kernel: WallKernel::new(stiffness, radius),
+            point: finite(point)?,
+            axis: unit("normal", normal)?,
+            round: None,
         })
     }
 
-    /// Penetration depth, divided by the radius, at which the axis lies in the surface of the wall.
-    pub fn yield_depth() -> f64 {
-        1.0
+    /// Creates a sphere with a centre and a radius (nm, lab frame).
+    ///
+    /// # Errors
+    /// If the radius is not positive, or a number is not finite.
+    pub fn sphere(centre: Vector3, radius: f64, side: Side) -> Result<Self, RepulsionError> {
+        positive("radius of a wall", radius)?;
+        Ok(Self {
+            point: finite(centre)?,
+            axis: Vector3::zeros(),
+            round: Some((radius, side)),
+        })
     }
 
-    /// Stiffness per length (pN/nm^2) if the axis lies in the surface of the wall.
-    pub fn greatest_stiffness(&self) -> f64 {
-        self.kernel.tangent(self.kernel.radius)
+    /// Creates a cylinder of infinite length with a point of its axis, the direction of its axis (any
+    /// nonzero length) and a radius (nm, lab frame).
+    ///
+    /// # Errors
+    /// If the radius is not positive, the direction is zero, or a number is not finite.
+    ///
+    /// ```
+    /// use actin_coupling::{Vector3, repulsion::{Side, Wall}};
+    /// let wall = Wall::cylinder(Vector3::zeros(), Vector3::z(), 5.0, Side::Inside)?;
+    /// // The second end is 1 nm from the wall.
+    /// let nearest = wall.nearest([Vector3::x(), Vector3::new(4.0, 0.0, 9.0)]);
+    /// assert_eq!(nearest, (1.0, 1.0));
+    /// # Ok::<(), actin_coupling::repulsion::RepulsionError>(())
+    /// ```
+    pub fn cylinder(
+        point: Vector3,
+        axis: Vector3,
+        radius: f64,
+        side: Side,
+    ) -> Result<Self, RepulsionError> {
+        positive("radius of a wall", radius)?;
+        Ok(Self {
+            point: finite(point)?,
+            axis: unit("axis", axis)?,
+            round: Some((radius, side)),
+        })
     }
 
-    /// Smallest gap, or `None` if all gaps exceed a quarter of a radius.
-    pub fn closest(&self, state: &State) -> Option<Gap> {
-        let all = self.capsules.iter().enumerate().map(|(i, capsule)| {
-            let (share, distance) = self.nearest(capsule.ends(state));
-            let place = capsule.middle() + (share - 0.5) * capsule.length();
-            Gap {
-                gap: distance - self.kernel.radius,
-                capsules: [i; 2],
-                places: [place; 2],
-            }
-        });
-        let least = all.min_by(|a, b| a.gap.total_cmp(&b.gap))?;
-        (least.gap <= MARGIN * self.kernel.radius).then_some(least)
+    /// Radius (nm) of a sphere or cylinder with filaments inside.
+    pub(super) fn inner_radius(&self) -> Option<f64> {
+        let inside = self.round.filter(|(_, side)| *side == Side::Inside);
+        inside.map(|(radius, _)| radius)
     }
 
-    /// Relative position and distance (nm) of the point of an axis nearest to the wall.
-    fn nearest(&self, ends: [Vector3; 2]) -> (f64, f64) {
-        let least_of_ends = || {
-            let distances = ends.map(|x| self.distance(x).0);
-            if distances[0] <= distances[1] {
-                (0.0, distances[0])
-            } else {
-                (1.0, distances[1])
-            }
-        };
-        match self.wall {
-            Wall::Sphere {
-                centre,
-                radius,
-                side: Side::Outside,
-            } => {
-                let (share, squared) = segments::nearest_to_point(ends, centre);
-                (share, squared.sqrt() - radius)
-            }
-            _ => least_of_ends(),
+    /// Radius (nm) of a sphere or cylinder with filaments outside.
+    pub(super) fn outer_radius(&self) -> Option<f64> {
+        let outside = self.round.filter(|(_, side)| *side == Side::Outside);
+        outside.map(|(radius, _)| radius)
+    }
+
+    /// Vector to a point from the centre of a sphere, or perpendicular from the axis of a cylinder
+    /// (nm, lab frame).
+    pub(super) fn arm(&self, x: Vector3) -> Vector3 {
+        let arm = x - self.point;
+        arm - self.axis * self.axis.dot(&arm)
+    }
+
+    /// Relative position, from 0 to 1, of the point of a line segment nearest to the wall, and its
+    /// distance (nm), negative beyond the wall.
+    pub fn nearest(&self, ends: [Vector3; 2]) -> (f64, f64) {
+        if let Some(radius) = self.outer_radius() {
+            let arms = ends.map(|x| self.arm(x));
+            let (share, squared) = segments::nearest_to_point(arms, Vector3::zeros());
+            return (share, squared.sqrt() - radius);
+        }
+        let distances = ends.map(|x| self.distance(x).0);
+        if distances[0] <= distances[1] {
+            (0.0, distances[0])
+        } else {
+            (1.0, distances[1])
         }
     }
 
     /// Distance of a point from the wall (nm), its gradient `g`, and the factor `c` of its second
-    /// derivative `c (1 - g g^T)` (1/nm). The gradient is zero at the centre of a sphere.
-    fn distance(&self, x: Vector3) -> (f64, Vector3, f64) {
-        match self.wall {
-            Wall::Plane { point, normal } => ((x - point).dot(&normal), normal, 0.0),
-            Wall::Sphere {
-                centre,
-                radius,
-                side,
-            } => {
-                let arm = x - centre;
-                let length = arm.norm();
-                let (direction, curving) = if length > f64::MIN_POSITIVE {
-                    (arm / length, 1.0 / length)
-                } else {
-                    (Vector3::zeros(), 0.0)
-                };
-                match side {
-                    Side::Inside => (radius - length, -direction, -curving),
-                    Side::Outside => (length - radius, direction, curving),
-                }
-            }
-        }
-    }
-
-    fn touches(&self, i: usize, [start, end]: [Vector3; 2], mut visit: impl FnMut(&ContactPoint)) {
-        let row = self.rows[i];
-        for k in 0..row.count {
-            let share = row.share(k);
-            let (distance, away, curving) = self.distance(start + (end - start) * share);
-            let depth = self.kernel.radius - distance;
-            if depth > 0.0 {
-                visit(&ContactPoint {
-                    depth,
-                    away,
-                    curving,
-                    share,
-                    weight: row.weight,
-                });
-            }
-        }
-    }
-
-    /// Indices and ends of the capsules with gaps below `margin` (nm).
-    fn near(&self, state: &State, margin: f64) -> impl Iterator<Item = (usize, [Vector3; 2])> {
-        let ends = self.capsules.iter().map(|capsule| capsule.ends(state));
-        let near = move |ends: [Vector3; 2]| self.nearest(ends).1 < self.kernel.radius + margin;
-        ends.enumerate().filter(move |(_, ends)| near(*ends))
-    }
-
-    fn forces(&self, i: usize, ends: [Vector3; 2]) -> [Vector3; 2] {
-        let mut forces = [Vector3::zeros(); 2];
-        self.touches(i, ends, |t| {
-            let force = t.away * (t.weight * self.kernel.force(t.depth));
-            forces[0] += force * (1.0 - t.share);
-            forces[1] += force * t.share;
-        });
-        forces
-    }
-
-    fn tangents(&self, i: usize, ends: [Vector3; 2]) -> [[Matrix3; 2]; 2] {
-        let mut blocks = [[Matrix3::zeros(); 2]; 2];
-        self.touches(i, ends, |t| {
-            let outer = t.away * t.away.transpose();
-            let across = (Matrix3::identity() - outer) * (self.kernel.force(t.depth) * t.curving);
-            let tangent = (outer * self.kernel.tangent(t.depth) - across) * t.weight;
-            let factors = [1.0 - t.share, t.share];
-            for (row, f) in blocks.iter_mut().zip(factors) {
-                for (block, g) in row.iter_mut().zip(factors) {
-                    *block += tangent * (f * g);
-                }
-            }
-        });
-        blocks
-    }
-}
-
-impl WallContact {
-    /// Bodies outside of a sphere whose straight paths lead within a distance (nm) of it, with the
-    /// fraction of the path up to there. Other walls need no check, since the energy grows with the penetration
-    /// depth. In a sphere, an axis can enter and leave on the other side within one step.
-    fn approaching(
-        &self,
-        from: &State,
-        to: &State,
-        distance: f64,
-    ) -> impl Iterator<Item = (Coordinates, f64)> {
-        let outside = match self.wall {
-            Wall::Sphere {
-                centre,
-                radius,
-                side: Side::Outside,
-            } => Some((centre, radius)),
-            _ => None,
+    /// derivative `c (P - g g^T)` (1/nm) with the [`curved_directions`](Self::curved_directions)
+    /// `P`. The gradient is zero at the centre or on the axis.
+    pub(super) fn distance(&self, x: Vector3) -> (f64, Vector3, f64) {
+        let Some((radius, side)) = self.round else {
+            return ((x - self.point).dot(&self.axis), self.axis, 0.0);
         };
-        outside.into_iter().flat_map(move |(centre, radius)| {
-            let limit = Limit {
-                least: radius + distance,
-                kept: KEPT,
-            };
-            let approach = move |capsule: &Capsule| {
-                let ways = [from, to].map(|state| [capsule.ends(state), [centre; 2]]);
-                let fraction = passing::reaches(limit, ways[0], ways[1])?;
-                Some((capsule.body(), fraction))
-            };
-            self.capsules.iter().filter_map(approach)
-        })
+        let arm = self.arm(x);
+        let length = arm.norm();
+        let (direction, curving) = if length > f64::MIN_POSITIVE {
+            (arm / length, 1.0 / length)
+        } else {
+            (Vector3::zeros(), 0.0)
+        };
+        match side {
+            Side::Inside => (radius - length, -direction, -curving),
+            Side::Outside => (length - radius, direction, curving),
+        }
+    }
+
+    /// Projection on the directions across the axis of a cylinder; identity for a sphere.
+    pub(super) fn curved_directions(&self) -> Matrix3 {
+        Matrix3::identity() - self.axis * self.axis.transpose()
     }
 }
 
-impl Interaction for WallContact {
-    fn term(&self) -> &'static str {
-        "repulsion"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        for (i, ends) in self.near(state, 0.0) {
-            self.capsules[i].add_forces(self.forces(i, ends), state, loads);
-        }
-    }
-
-    fn elements(&self) -> usize {
-        self.capsules.len()
-    }
-
-    fn write_energies(&self, state: &State, energies: &mut [f64]) {
-        assert_eq!(energies.len(), self.elements(), "one energy per capsule");
-        energies.fill(0.0);
-        for (i, ends) in self.near(state, 0.0) {
-            let energy = &mut energies[i];
-            self.touches(i, ends, |t| {
-                *energy += t.weight * self.kernel.energy(t.depth);
-            });
-        }
-    }
-
-    fn second_order(&self) -> Option<&dyn SecondOrder> {
-        Some(self)
-    }
-
-    fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
-        let mut approaching = self.approaching(from, to, 0.0);
-        approaching.next().map(|(body, _)| body)
-    }
-
-    fn approaches(&self, from: &State, to: &State) -> Vec<Approach> {
-        let approaching = self.approaching(from, to, MEETING * self.kernel.radius);
-        approaching
-            .map(|(body, fraction)| Approach {
-                bodies: [body; 2],
-                fraction,
-            })
-            .collect()
+fn finite(point: Vector3) -> Result<Vector3, RepulsionError> {
+    let rule = "finite";
+    match point.iter().find(|x| !x.is_finite()) {
+        None => Ok(point),
+        Some(&value) => Err(RepulsionError {
+            key: "point of a wall",
+            value,
+            rule,
+        }),
     }
 }
 
-impl SecondOrder for WallContact {
-    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
-        for (i, ends) in self.near(state, MARGIN * self.kernel.radius) {
-            let tangents = self.tangents(i, ends);
-            let capsule = &self.capsules[i];
-            let bodies = capsule.slopes(state).map(|slopes| (0, slopes));
-            push_blocks(&bodies, &tangents, stiffness);
-            capsule.push_curvature(self.forces(i, ends), state, stiffness);
-        }
+fn unit(key: &'static str, direction: Vector3) -> Result<Vector3, RepulsionError> {
+    // Scaling avoids overflow and underflow of the squares.
+    let unit = (direction / direction.amax()).normalize();
+    if unit.iter().all(|x| x.is_finite()) {
+        return Ok(unit);
     }
-
-    fn couples_by_distance(&self) -> bool {
-        true
-    }
+    let (value, rule) = (direction.norm(), "finite and not zero");
+    Err(RepulsionError { key, value, rule })
 }

@@ -1,3 +1,4 @@
+use actin_coupling::PeriodicCell;
 use actin_coupling::repulsion::{
     Axis, Capsule, ContactParameters, Contacts, RepulsionError, Side, Tethers, Wall, WallContact,
 };
@@ -57,14 +58,142 @@ fn monomers(state: &mut State, filament: usize, from: Vector3, count: usize) -> 
 
 fn tangle() -> (State, Vec<Capsule>) {
     let mut state = State::default();
-    let (z, x) = (Vector3::z(), Vector3::x());
-    let mut capsules = monomers(&mut state, 0, z * -8.0, 7);
-    let across = (1, x * -15.0 + Vector3::y() * 5.0, x + z * 0.1);
-    capsules.extend(chain(&mut state, across, (3, 10.0)));
-    let slanted = (2, Vector3::new(-12.0, 10.0, -4.0), x + z * 0.3);
-    capsules.extend(chain(&mut state, slanted, (3, 8.0)));
+    let capsules = push_tangle(&mut state, 0);
     perturb(&mut state, &mut Xorshift::new(4), 0.3, 0.1);
     (state, capsules)
+}
+
+/// Adds three filaments with indices from `first`.
+fn push_tangle(state: &mut State, first: usize) -> Vec<Capsule> {
+    let (z, x) = (Vector3::z(), Vector3::x());
+    let mut capsules = monomers(state, first, z * -8.0, 7);
+    let across = (first + 1, x * -15.0 + Vector3::y() * 5.0, x + z * 0.1);
+    capsules.extend(chain(state, across, (3, 10.0)));
+    let slanted = (first + 2, Vector3::new(-12.0, 10.0, -4.0), x + z * 0.3);
+    capsules.extend(chain(state, slanted, (3, 8.0)));
+    capsules
+}
+
+/// Sheared box in which filaments of the [`tangle`] cross the faces.
+fn cell(state: &mut State) -> PeriodicCell {
+    PeriodicCell {
+        size: Vector3::new(19.0, 16.0, 23.0),
+        strain: 0.4,
+        factor: state.add_control(0.5),
+    }
+}
+
+/// Displaces the points of the last filament of the [`tangle`].
+fn displace_last(state: &mut State, by: Vector3) {
+    let count = state.points.len();
+    for i in count - 4..count {
+        state.points.position.add(i, by);
+    }
+}
+
+/// Forces equal those of the filament at the place of its image, whose energies are equal, too.
+#[test]
+fn filaments_repel_each_other_across_faces() {
+    let (mut state, capsules) = tangle();
+    let mut cell = cell(&mut state);
+    cell.size *= 10.0;
+    let open = Contacts::new(capsules.clone(), parameters()).unwrap();
+    let across = open.clone().with_cell(Some(cell));
+    let (here, energy) = (loads_of(&open, &state), open.energy(&state));
+    let gap = open.closest(&state).unwrap().gap;
+    assert!(energy > 10.0, "no contact");
+    for index in [[0, 0, 1], [-2, 5, -3]] {
+        let mut away = state.clone();
+        displace_last(&mut away, cell.displacement(index, &state));
+        let there = loads_of(&across, &away);
+        let difference = there.force.iter().zip(here.force.iter());
+        let largest = difference.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        // Rounding of positions up to 1e3 nm times the stiffness.
+        assert!(largest < 1e-9, "{index:?}: {largest:e}");
+        assert!((across.energy(&away) - energy).abs() < 1e-9);
+        let found = across.closest(&away).unwrap();
+        assert!((found.gap - gap).abs() < 1e-11);
+    }
+}
+
+/// Derivatives in a box that is smaller than the filaments, with contacts of a filament and its own
+/// image and of neighbouring capsules with a common point.
+#[test]
+fn contacts_across_faces_have_a_gradient_and_conserve_momentum() {
+    let (mut state, capsules) = tangle();
+    let cell = cell(&mut state);
+    let contacts = Contacts::new(capsules, parameters())
+        .unwrap()
+        .with_cell(Some(cell));
+    assert!(contacts.energy(&state) > 100.0, "no contact");
+    assert_is_gradient(&contacts, &state, 1e-3, 1e-8);
+    assert_are_second_derivatives(&contacts, &state, 1e-3, 1e-7);
+    let force: Vector3 = loads_of(&contacts, &state).force.iter().sum();
+    assert!(force.norm() < 1e-11, "{force}");
+
+    let mut alone = State::default();
+    let along = Vector3::new(0.1, 1.0, 0.0);
+    let capsules = chain(&mut alone, (0, Vector3::zeros(), along), (4, 10.0));
+    let size = Vector3::new(5.0, 100.0, 100.0);
+    let (strain, factor) = (0.0, alone.add_control(1.0));
+    let own = PeriodicCell {
+        size,
+        strain,
+        factor,
+    };
+    let contacts = Contacts::new(capsules, parameters())
+        .unwrap()
+        .with_cell(Some(own));
+    assert!(contacts.energy(&alone) > 10.0, "no contact");
+    assert_is_gradient(&contacts, &alone, 1e-3, 1e-8);
+    assert_are_second_derivatives(&contacts, &alone, 1e-3, 1e-7);
+}
+
+/// Energies equal those among explicit copies. The virial equals the derivative of the energy with
+/// respect to the strain: `dE/dg = sum r_z F_x`.
+#[test]
+fn images_are_equivalent_to_copies() {
+    let (mut state, capsules) = tangle();
+    let cell = cell(&mut state);
+    let contacts = Contacts::new(capsules.clone(), parameters()).unwrap();
+    let contacts = contacts.with_cell(Some(cell));
+    let (mut all, mut copies) = (capsules, state.clone());
+    let own = all.len();
+    let range = || -3..=3;
+    let indices = range().flat_map(|x| range().flat_map(move |y| range().map(move |z| [x, y, z])));
+    for (k, index) in indices.filter(|index| *index != [0; 3]).enumerate() {
+        let first = 3 * (k + 1);
+        let (points, frames) = (copies.points.len(), copies.frames.len());
+        all.extend(push_tangle(&mut copies, first));
+        let shift = cell.displacement(index, &state);
+        for (i, at) in state.points.position.iter().enumerate() {
+            copies.points.position.set(points + i, at + shift);
+        }
+        for i in 0..state.frames.len() {
+            let turn = state.frames.orientation.get(i);
+            copies.frames.orientation.set(frames + i, turn);
+        }
+    }
+    let open = Contacts::new(all, parameters()).unwrap();
+    let energies = |contacts: &Contacts, state: &State| {
+        let mut energies = vec![0.0; contacts.elements()];
+        contacts.write_energies(state, &mut energies);
+        energies
+    };
+    let (periodic, explicit) = (energies(&contacts, &state), energies(&open, &copies));
+    for (a, b) in periodic.iter().zip(&explicit[..own]) {
+        assert!((a - b).abs() < 1e-10 * (1.0 + b), "{a}, {b}");
+    }
+    let energy = |factor: f64| {
+        let mut strained = state.clone();
+        strained.controls[cell.factor] = factor;
+        contacts.energy(&strained)
+    };
+    // The central difference has an error of second order in displacements of 0.1 % of a contact.
+    let slope = (energy(0.5 + 1e-4) - energy(0.5 - 1e-4)) / 2e-4 / cell.strain;
+    let virial = contacts.periodic_virial(&state);
+    let expected = virial[(2, 0)];
+    assert!((slope / expected - 1.0).abs() < 1e-5, "{slope}, {expected}");
 }
 
 #[test]
@@ -82,20 +211,18 @@ fn contacts_have_a_gradient_and_conserve_momentum() {
 #[test]
 fn walls_are_the_gradient_of_their_energy() {
     let (state, capsules) = tangle();
-    let plane = Wall::Plane {
-        point: Vector3::y() * -1.0,
-        normal: Vector3::new(0.2, 2.0, 0.1),
-    };
-    let sphere = |radius, side| Wall::Sphere {
-        centre: Vector3::new(1.0, 22.0, 2.0),
-        radius,
-        side,
-    };
+    let centre = Vector3::new(1.0, 22.0, 2.0);
+    let sphere = |radius, side| Wall::sphere(centre, radius, side);
+    let axis = Vector3::new(1.0, 0.1, 0.4);
+    let cylinder = |radius, side| Wall::cylinder(centre, axis, radius, side);
     for wall in [
-        plane,
+        Wall::plane(Vector3::y() * -1.0, Vector3::new(0.2, 2.0, 0.1)),
         sphere(15.0, Side::Outside),
         sphere(23.0, Side::Inside),
+        cylinder(15.0, Side::Outside),
+        cylinder(23.0, Side::Inside),
     ] {
+        let wall = wall.unwrap();
         let contact = WallContact::new(capsules.clone(), wall, RADIUS, STIFFNESS).unwrap();
         assert!(contact.energy(&state) > 1.0, "{wall:?}: no contact");
         assert_is_gradient(&contact, &state, 1e-3, 1e-8);
@@ -188,12 +315,19 @@ fn greatest_stiffness_equals_the_parameter() {
 #[test]
 fn loads_do_not_depend_on_the_age_of_the_neighbour_list() {
     let (mut state, capsules) = tangle();
-    let used = Contacts::new(capsules.clone(), parameters()).unwrap();
+    let open = Contacts::new(capsules, parameters()).unwrap();
+    let cell = cell(&mut state);
+    check_age(&open, state.clone(), cell);
+    check_age(&open.with_cell(Some(cell)), state, cell);
+}
+
+fn check_age(used: &Contacts, mut state: State, cell: PeriodicCell) {
     let mut noise = Xorshift::new(9);
     for _ in 0..200 {
         perturb(&mut state, &mut noise, 0.4, 0.05);
-        let fresh = Contacts::new(capsules.clone(), parameters()).unwrap();
-        assert_eq!(loads_of(&used, &state), loads_of(&fresh, &state));
+        state.controls[cell.factor] += 0.05 * noise.sample();
+        let fresh = used.clone();
+        assert_eq!(loads_of(used, &state), loads_of(&fresh, &state));
         assert_eq!(
             used.energy(&state).to_bits(),
             fresh.energy(&state).to_bits()
@@ -204,7 +338,7 @@ fn loads_do_not_depend_on_the_age_of_the_neighbour_list() {
             second.add_stiffness(&state, &mut stiffness);
             stiffness
         };
-        assert_eq!(blocks(&used), blocks(&fresh));
+        assert_eq!(blocks(used), blocks(&fresh));
         assert_eq!(used.closest(&state), fresh.closest(&state));
     }
 }
@@ -286,20 +420,54 @@ fn invalid_numbers_are_refused() {
         })),
         "apart"
     );
-    let wall = |wall| WallContact::new(Vec::new(), wall, RADIUS, STIFFNESS).map(drop);
-    let plane = |normal| Wall::Plane {
-        point: Vector3::zeros(),
-        normal,
+    let contact = |wall| WallContact::new(Vec::new(), wall, RADIUS, STIFFNESS).map(drop);
+    let (zero, z) = (Vector3::zeros(), Vector3::z());
+    let plane = |point, normal| Wall::plane(point, normal).map(drop);
+    assert_eq!(key(plane(zero, zero)), "normal");
+    assert_eq!(key(plane(z / 0.0, z)), "point of a wall");
+    assert!(plane(zero, z * 1e-200).is_ok());
+    assert_eq!(
+        key(Wall::cylinder(zero, zero, 9.0, Side::Inside).map(drop)),
+        "axis"
+    );
+    for wall in [
+        |radius, side| Wall::sphere(Vector3::zeros(), radius, side),
+        |radius, side| Wall::cylinder(Vector3::zeros(), Vector3::x(), radius, side),
+    ] {
+        assert_eq!(key(wall(-1.0, Side::Outside).map(drop)), "radius of a wall");
+        let of = |side| contact(wall(3.0, side).unwrap());
+        assert_eq!(key(of(Side::Inside)), "radius of a wall");
+        assert!(of(Side::Outside).is_ok());
+    }
+}
+
+/// Moves the second filament through an image of the first one, and an image of the second
+/// through the first one by strain.
+fn check_crossings_of_images(contacts: &Contacts, above: &State) {
+    let mut state = above.clone();
+    let cell = PeriodicCell {
+        size: Vector3::new(60.0, 60.0, 60.0),
+        strain: 1.0,
+        factor: state.add_control(0.0),
     };
-    assert_eq!(key(wall(plane(Vector3::zeros()))), "normal");
-    assert!(wall(plane(Vector3::x() * 1e-200)).is_ok());
-    let sphere = |radius, side| Wall::Sphere {
-        centre: Vector3::zeros(),
-        radius,
-        side,
+    let contacts = contacts.clone().with_cell(Some(cell));
+    let moved = |by: Vector3, strain: f64| {
+        let mut moved = state.clone();
+        for i in moved.points.len() / 2..moved.points.len() {
+            moved.points.position.add(i, by);
+        }
+        moved.controls[cell.factor] = strain;
+        moved
     };
-    assert_eq!(key(wall(sphere(3.0, Side::Inside))), "radius of a sphere");
-    assert!(wall(sphere(3.0, Side::Outside)).is_ok());
+    let raised = |by: f64| moved(Vector3::z() * by, 0.0);
+    let passes = |from: &State, to: &State| contacts.passes_through(from, to).is_some();
+    assert!(passes(&state, &raised(60.0)) && !passes(&state, &raised(50.0)));
+    assert!(passes(&raised(-50.0), &state) && !passes(&raised(50.0), &state));
+    // Images are at x = -30 and 30 nm; the first filament ends at -20 and 20 nm.
+    let beside = |strain: f64| moved(Vector3::new(29.0, 0.0, -63.0), strain);
+    for (strain, crosses) in [(-0.1, false), (-0.4, true), (0.1, false)] {
+        assert_eq!(passes(&beside(0.0), &beside(strain)), crosses, "{strain}");
+    }
 }
 
 #[test]
@@ -329,15 +497,18 @@ fn crossings_are_detected() {
         }
     }
     assert!(!told(&above, &above));
-    let sphere = Wall::Sphere {
-        centre: Vector3::new(1.0, 4.0, 0.0),
-        radius: 2.0,
-        side: Side::Outside,
-    };
-    let wall = WallContact::new(capsules, sphere, RADIUS, STIFFNESS).unwrap();
-    // Through the sphere, whose centre is 1 nm off the axis, and past it.
-    for (aside, passes) in [(0.0, true), (100.0, false)] {
-        let [above, below] = [5.0, -5.0].map(|height| crossing(height, aside).0);
-        assert_eq!(wall.passes_through(&above, &below).is_some(), passes);
+    check_crossings_of_images(&contacts, &above);
+    let centre = Vector3::new(1.0, 4.0, 0.0);
+    // Through the wall, whose axis is 1 nm off or crosses, and past it.
+    for wall in [
+        Wall::sphere(centre, 2.0, Side::Outside),
+        Wall::cylinder(centre, Vector3::x(), 2.0, Side::Outside),
+    ] {
+        let wall = wall.unwrap();
+        let wall = WallContact::new(capsules.clone(), wall, RADIUS, STIFFNESS).unwrap();
+        for (aside, passes) in [(0.0, true), (100.0, false)] {
+            let [above, below] = [5.0, -5.0].map(|height| crossing(height, aside).0);
+            assert_eq!(wall.passes_through(&above, &below).is_some(), passes);
+        }
     }
 }

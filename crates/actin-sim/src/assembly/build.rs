@@ -19,7 +19,7 @@ use crate::follow;
 use crate::observe::{EnergyNames, Observers};
 use crate::scene::{ClampedEnds, End, Filament, Load, Scene, SceneProblem, Section};
 use crate::trade;
-use actin_coupling::{Linker, PeriodicCell};
+use actin_coupling::{Linker, PeriodicCell, Site};
 use actin_mechanics::{ControlId, Interaction, State, System};
 pub(crate) use sampled::InterfaceSampling;
 use sampled::Sampling;
@@ -79,8 +79,11 @@ impl Assembly {
         builder.hold_ends()?;
         builder.push_loads()?;
         builder.push_linkers()?;
+        builder.push_beads()?;
         builder.push_repulsion()?;
-        Ok(builder.finish())
+        let assembly = builder.finish();
+        assembly.check_repulsion()?;
+        Ok(assembly)
     }
 }
 
@@ -122,6 +125,7 @@ struct Builder<'a> {
     loads: Vec<ControlId>,
     cell: Option<PeriodicCell>,
     linkers: Vec<Linker>,
+    beads: Vec<(Site, f64)>,
     kinetics: Option<Kinetics>,
     /// Tables of roaming linkers by the distance of sites and the direction of steps.
     site_tables: HashMap<(u64, bool, u64), SiteTable>,
@@ -158,6 +162,7 @@ impl<'a> Builder<'a> {
             loads: Vec::new(),
             cell: None,
             linkers: Vec::new(),
+            beads: Vec::new(),
             kinetics: None,
             site_tables: HashMap::new(),
             repelled: None,
@@ -223,6 +228,7 @@ impl<'a> Builder<'a> {
             loads: self.loads,
             cell: self.cell,
             linkers: self.linkers,
+            beads: self.beads,
             kinetics: self.kinetics.map(Arc::new),
             energy_balance,
             repelled: self.repelled,

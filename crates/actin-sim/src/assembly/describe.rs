@@ -1,6 +1,7 @@
 //! Names of bodies and parts in messages and files.
 
 use super::{Assembly, BodyKind, FrameInfo, Part, PointInfo};
+use crate::scene::WallName;
 use actin_coupling::LinkerEnd;
 use actin_integrate::Body;
 
@@ -67,8 +68,7 @@ impl Assembly {
             Part::Linker(i) => format!("linker_{i}"),
             Part::Clamp(i) => format!("clamp_{i}"),
             Part::Contacts => "contacts".to_owned(),
-            Part::Plane(i) => format!("plane_{i}"),
-            Part::Sphere(i) => format!("sphere_{i}"),
+            Part::Wall(WallName { shape, index }) => format!("{shape}_{index}"),
         }
     }
 }

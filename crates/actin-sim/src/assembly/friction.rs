@@ -5,13 +5,14 @@ use crate::scene::{End, Fluid, SceneProblem, Water};
 use actin_brownian::{Cylinder, Dashpot, Friction, TurnDashpot};
 use actin_cosserat::{RodEnd, RodLayout};
 use actin_mechanics::Vector3;
+use std::f64::consts::PI;
 
 /// Largest share of a segment's rotational friction for the frames of one junction, and for the
 /// cross-section at its end.
 const OF_SEGMENT: f64 = 0.25;
 
 impl Assembly {
-    /// Returns the drag of `fluid` on all filaments.
+    /// Returns the drag of `fluid` on all filaments and beads.
     ///
     /// A monomer carries the drag of its share of the section's length, acting at the axis of the
     /// filament. A segment's drag is split evenly between its nodes. Each junction frame takes the
@@ -22,7 +23,11 @@ impl Assembly {
     /// # Errors
     /// If a filament is too short for its radius.
     pub(crate) fn friction(&self, fluid: &Fluid) -> Result<Friction, SceneProblem> {
-        let Fluid::Water(Water { at_ends, .. }) = *fluid;
+        let Fluid::Water(Water {
+            at_ends,
+            viscosity_mpa_s,
+            ..
+        }) = *fluid;
         let mut friction = Friction::default();
         for filament in 0..self.filaments.len() {
             let drag = FilamentDrag {
@@ -32,6 +37,21 @@ impl Assembly {
                 at_ends,
             };
             drag.add(&mut friction);
+        }
+        for (site, radius) in &self.beads {
+            // Friction of a sphere at low Reynolds number.
+            let of_place = 6.0 * PI * viscosity_mpa_s * radius;
+            let of_turns = 8.0 * PI * viscosity_mpa_s * radius.powi(3);
+            friction.dashpots.push(Dashpot {
+                points: site.weighted_points(),
+                frame: site.frame(),
+                arm: site.arm(),
+                friction: Vector3::repeat(of_place),
+            });
+            friction.turns.push(TurnDashpot {
+                frame: site.frame(),
+                friction: Vector3::repeat(of_turns),
+            });
         }
         Ok(friction)
     }
@@ -247,6 +267,48 @@ mod tests {
                 let is_close = (total / expected - 1.0).abs() < 1e-12;
                 assert!(is_close, "{sections}: {total} {expected}");
             }
+        }
+    }
+
+    /// A free filament with a trapped bead relaxes at the rate of the trap over the friction. Bodies
+    /// that move with the bead have the transverse friction of the filament in addition.
+    #[test]
+    fn trapped_beads_have_the_friction_of_spheres() {
+        let (radius, stiffness) = (500.0, 0.05);
+        let sphere = 6.0 * PI * 0.89 * radius;
+        for (section, distance) in [("Rod", 0.0), ("Rod", 20.0), ("Ellipsoids", 20.0)] {
+            let text = format!(
+                "Scene(
+                    filament: Filament(sections: [{section}(from_nm: 0.0, to_nm: 60.0)], rod: (law: Constant)),
+                    beads: [Bead(site: Site(at_nm: 30.0, radius_nm: {distance:?}, azimuth_deg: 50.0), radius_nm: {radius:?})],
+                    linkers: [Linker(at_nm: 30.0, radius_nm: {distance:?}, azimuth_deg: 50.0,
+                        displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: {stiffness:?})],
+                    task: Brownian(duration_ms: 1.0, temperature_k: 0.0),
+                )"
+            );
+            let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+            let friction = assembly.friction(&Fluid::default()).unwrap();
+            let dashpot = friction.dashpots.last().unwrap();
+            let centre = assembly.linkers[0].site().position(&assembly.rest);
+            let arm = assembly.rest.frames.orientation.get(dashpot.frame) * dashpot.arm;
+            let weighted = dashpot
+                .points
+                .map(|(i, w)| assembly.rest.points.position.get(i) * w);
+            assert!((weighted[0] + weighted[1] + arm - centre).norm() < 1e-12);
+            assert!((dashpot.friction.x - sphere).abs() < 1e-9);
+            // Times of 1e5 ns are not resolved with monomers, whose shortest time is 1e-4 ns.
+            if section == "Ellipsoids" {
+                continue;
+            }
+            let length = assembly.length_nm();
+            let across = Cylinder::new(0.89, length, 3.5).unwrap().across() * length;
+            let plan = crate::Plan::new(&assembly).unwrap();
+            let slowest = plan.relaxation_times().unwrap().unwrap().slowest_ns;
+            let expected = (sphere + across) / stiffness;
+            let error = slowest[0] / expected - 1.0;
+            println!("{section} at {distance} nm: {error:e}");
+            // The filament bends by the ratio of the stiffness of the trap to its own.
+            assert!(error.abs() < 1e-5, "{section}: {error:e}");
         }
     }
 

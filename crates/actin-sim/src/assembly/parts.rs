@@ -2,7 +2,7 @@
 
 use super::built_axis::BuiltAxis;
 use super::{Ranges, TwistWatch};
-use crate::scene::End;
+use crate::scene::{End, WallName};
 use actin_cosserat::{JoinedElement, RodLayout, RodMaterial, SegmentLaw};
 use actin_mechanics::{UnitQuaternion, Vector3};
 use std::ops::Range;
@@ -86,10 +86,8 @@ pub enum Part {
     Clamp(usize),
     /// Repulsion between filaments.
     Contacts,
-    /// Repelling plane, by index in the scene.
-    Plane(usize),
-    /// Repelling sphere, by index in the scene.
-    Sphere(usize),
+    /// Repelling wall.
+    Wall(WallName),
 }
 
 /// Index ranges of a filament's parts and its position as built.

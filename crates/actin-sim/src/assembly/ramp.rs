@@ -67,6 +67,7 @@ fn controlled(assembly: &Assembly) -> Vec<usize> {
             let is_strained = linker.image().is_some_and(|image| image.cell.strain != 0.0);
             is_strained || anchor.is_some_and(|controls| assembly.drive.moves(controls))
         }
+        Part::Contacts => assembly.cell.is_some_and(|cell| cell.strain != 0.0),
         _ => false,
     };
     let terms = assembly.terms.iter().enumerate();

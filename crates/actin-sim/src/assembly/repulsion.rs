@@ -1,6 +1,7 @@
 //! Repulsion of filaments and walls: gaps between surfaces, and contact stiffness.
 
 use super::{Assembly, Part};
+use crate::At;
 use crate::scene::SceneProblem;
 use actin_coupling::repulsion::{Capsule, Contacts, Gap, Tethers, WallContact};
 use actin_integrate::FrequencyError;
@@ -9,7 +10,7 @@ use actin_mechanics::{Interaction, State, System};
 #[derive(Clone, Debug)]
 pub(crate) struct RepulsionModel {
     pub(super) capsules: Vec<Capsule>,
-    pub(super) contacts: Option<Contacts>,
+    pub(crate) contacts: Option<Contacts>,
     pub(super) walls: Vec<(Part, WallContact)>,
     pub(crate) radius_nm: f64,
 }
@@ -81,23 +82,21 @@ impl SurfaceGap {
             1 => "the filament".to_owned(),
             _ => format!("filament {filament}"),
         };
-        match self.part {
-            Part::Plane(_) | Part::Sphere(_) => {
-                format!(
-                    "{} penetrates this wall by {depth:.2} nm at s = {s:.2} nm",
-                    name(a)
-                )
-            }
-            _ if a == b => format!(
-                "{} overlaps itself by {depth:.2} nm at s = {s:.2} and {t:.2} nm",
+        if matches!(self.part, Part::Wall(_)) {
+            return format!(
+                "{} penetrates this wall by {depth:.2} nm at s = {s:.2} nm",
                 name(a)
-            ),
-            _ => format!(
-                "{} overlaps {} by {depth:.2} nm at s = {s:.2} and {t:.2} nm",
-                name(a),
-                name(b)
-            ),
+            );
         }
+        let other = match self.gap.image {
+            [0, 0, 0] if a == b => "itself".to_owned(),
+            [0, 0, 0] => name(b),
+            image => format!("image {image:?} of {}", name(b)),
+        };
+        format!(
+            "{} overlaps {other} by {depth:.2} nm at s = {s:.2} and {t:.2} nm",
+            name(a)
+        )
     }
 }
 
@@ -124,11 +123,40 @@ impl Assembly {
         Ok(frequency.hypot(of_contact))
     }
 
-    pub(crate) fn notes_on_repulsion(&self) -> Vec<String> {
+    /// Contacts as built, with the images of a periodic box at the start.
+    fn initial_contacts(&self) -> Vec<SurfaceGap> {
         let Some(repelled) = &self.repelled else {
             return Vec::new();
         };
-        let touching = repelled.touching(&self.rest).into_iter();
+        let mut state = self.rest.clone();
+        self.place_controls(&mut state, At::Time(0.0));
+        repelled.touching(&state)
+    }
+
+    /// # Errors
+    /// If filaments as built penetrate each other or a wall beyond the range of the repulsion.
+    pub(super) fn check_repulsion(&self) -> Result<(), SceneProblem> {
+        let touching = self.initial_contacts();
+        let Some(beyond) = touching.iter().find(|touching| touching.is_beyond()) else {
+            return Ok(());
+        };
+        let radius = self.repelled.as_ref().map(|repelled| repelled.radius_nm);
+        let (key, value) = match (beyond.part, radius) {
+            (Part::Contacts, Some(radius)) => {
+                ("repulsion.radius_nm".to_owned(), format!("{radius:?}"))
+            }
+            (Part::Wall(name), _) => (name.key(), String::new()),
+            _ => return Ok(()),
+        };
+        let rule = format!(
+            "in the initial state {}, more than repulsion can separate: increase the distance",
+            beyond.in_words(self.filaments.len())
+        );
+        Err(SceneProblem::new(key, value, rule))
+    }
+
+    pub(crate) fn notes_on_repulsion(&self) -> Vec<String> {
+        let touching = self.initial_contacts().into_iter();
         let pressed = touching.filter(|touching| touching.depth > 0.0);
         pressed
             .map(|touching| {

@@ -14,12 +14,9 @@ impl EnergyNames {
     pub(crate) fn new(assembly: &Assembly) -> Self {
         let mut parts: Vec<Part> = Vec::new();
         let mut place = |part: Part| match part {
-            Part::Load(_)
-            | Part::Linker(_)
-            | Part::Clamp(_)
-            | Part::Contacts
-            | Part::Plane(_)
-            | Part::Sphere(_) => None,
+            Part::Load(_) | Part::Linker(_) | Part::Clamp(_) | Part::Contacts | Part::Wall(_) => {
+                None
+            }
             // Terms of one part are contiguous.
             Part::Section(_) | Part::Junction(_) => {
                 let known = parts.iter().rposition(|known| *known == part);

@@ -267,7 +267,7 @@ fn statistics(tensions: &[f64]) -> [f64; 4] {
 }
 
 /// Returns `-sum r f^T` over all points with the forces `f` of filaments, linkers between sites and contacts (pN nm).
-/// Linkers to periodic images add the displacement of the image times their force.
+/// Linkers to periodic images and contacts with them add the displacement of the image times their force.
 ///
 /// These forces add up to zero, so that the tensor does not depend on the origin. Its symmetric part is the derivative of
 /// their energy with respect to a uniform strain of all points at fixed orientations.
@@ -286,7 +286,11 @@ fn virial(view: &View<'_>) -> Matrix3 {
     if view.assembly.cell.is_none() {
         return of_points;
     }
-    (0..view.assembly.linkers.len()).fold(of_points, |sum, i| {
+    let repelled = view.assembly.repelled.as_ref();
+    let of_contacts =
+        repelled.and_then(|one| Some(one.contacts.as_ref()?.periodic_virial(view.state)));
+    let of_others = of_points + of_contacts.unwrap_or_else(Matrix3::zeros);
+    (0..view.assembly.linkers.len()).fold(of_others, |sum, i| {
         let (linker, is_bound) = view.assembly.linker_in(i, view.state);
         let image = linker.periodic_displacement(view.state);
         sum + image * linker.force(view.state).transpose() * f64::from(u8::from(is_bound))
@@ -297,7 +301,7 @@ fn is_internal(assembly: &Assembly, part: Part) -> bool {
     match part {
         Part::Section(_) | Part::Junction(_) | Part::Contacts => true,
         Part::Linker(linker) => assembly.scene.linkers[linker].to.is_some(),
-        Part::Load(_) | Part::Clamp(_) | Part::Plane(_) | Part::Sphere(_) => false,
+        Part::Load(_) | Part::Clamp(_) | Part::Wall(_) => false,
     }
 }
 
@@ -305,6 +309,7 @@ fn is_internal(assembly: &Assembly, part: Part) -> bool {
 mod tests {
     use super::super::tests::{build, observe, value};
     use super::cluster_sizes;
+    use crate::Assembly;
 
     const BUNDLE: &str = "Scene(
         arrangements: [Bundle(
@@ -432,13 +437,27 @@ mod tests {
     #[test]
     fn the_shear_stress_is_a_derivative_of_the_energy() {
         let assembly = build(SHEARED);
-        assert!(
-            assembly
-                .linkers
-                .iter()
-                .any(|linker| linker.image().is_some())
-        );
-        let (trajectory, _) = crate::Plan::new(&assembly).unwrap().run().unwrap();
+        let mut linkers = assembly.linkers.iter();
+        assert!(linkers.any(|linker| linker.image().is_some()));
+        check_shear_stress(&assembly);
+        let repelled = SHEARED
+            .replace(
+                "seed: 1,\n        )],\n        linker_sets",
+                "seed: 1, apart_nm: 15.0,\n        )],\n        linker_sets",
+            )
+            .replace(
+                "observe:",
+                "repulsion: Repulsion(radius_nm: 10.0), observe:",
+            );
+        let assembly = build(&repelled);
+        let contacts = assembly.repelled.as_ref().unwrap().contacts.as_ref();
+        let across = contacts.unwrap().periodic_virial(&assembly.rest);
+        assert!(across.amax() > 100.0, "{across}");
+        check_shear_stress(&assembly);
+    }
+
+    fn check_shear_stress(assembly: &Assembly) {
+        let (trajectory, _) = crate::Plan::new(assembly).unwrap().run().unwrap();
         let records = &trajectory.records;
         let record = |path: f64| {
             let mut all = records.iter();
@@ -448,8 +467,9 @@ mod tests {
         let energy = |path: f64| record(path).row.potential_pn_nm();
         let slope = (energy(3.0) - energy(1.0)) / (0.02 * 0.05);
         let row = &record(2.0).row.observed;
-        let virial = value(&assembly, row, "network_virial_xz_pn_nm");
-        let stress = value(&assembly, row, "network_stress_xz_pa");
+        let virial = value(assembly, row, "network_virial_xz_pn_nm");
+        let stress = value(assembly, row, "network_stress_xz_pa");
+        println!("{slope} {virial} pN nm, {stress} Pa");
         // Truncation: strains differ by 1 %.
         assert!((slope / virial - 1.0).abs() < 1e-3 && stress > 0.0);
         assert!((stress * 150.0_f64.powi(3) / (virial * 1e6) - 1.0).abs() < 1e-12);

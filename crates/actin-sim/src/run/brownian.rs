@@ -211,7 +211,7 @@ impl Estimate {
 }
 
 /// Returns for each filament whether other elements than one rod are joined to its frames off the axis:
-/// other sections or hinged walls.
+/// other sections, hinged walls or beads.
 fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
     let sections = (0..assembly.filaments.len()).map(|filament| assembly.sections_of(filament));
     let mut held: Vec<bool> = sections
@@ -219,6 +219,10 @@ fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
         .collect();
     for clamp in assembly.scene.clamps.iter().filter(|c| c.hinge.is_some()) {
         held[clamp.filament] = true;
+    }
+    let beads = assembly.scene.beads.iter();
+    for bead in beads.filter(|bead| bead.site.radius_nm > 0.0) {
+        held[bead.site.filament] = true;
     }
     held
 }

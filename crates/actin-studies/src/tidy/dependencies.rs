@@ -20,7 +20,12 @@ const ALLOWED: [(&str, &[&str]); 20] = [
     ("actin-draw", &[]),
     (
         "actin-scene",
-        &["actin-mechanics", "actin-cosserat", "actin-ellipsoid"],
+        &[
+            "actin-mechanics",
+            "actin-cosserat",
+            "actin-ellipsoid",
+            "actin-coupling",
+        ],
     ),
     (
         "actin-sim",

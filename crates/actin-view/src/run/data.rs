@@ -205,7 +205,7 @@ fn external_forces(assembly: &Assembly, state: &State) -> Vec<[f64; 2]> {
     for (term, interaction) in assembly.terms.iter().zip(assembly.system.interactions()) {
         match term.part {
             Part::Load(_) | Part::Linker(_) => interaction.add_loads(state, &mut all),
-            Part::Contacts | Part::Plane(_) | Part::Sphere(_) => {
+            Part::Contacts | Part::Wall(_) => {
                 interaction.add_loads(state, &mut all);
                 interaction.add_loads(state, &mut contacts);
             }

@@ -42,6 +42,21 @@ impl Builder<'_> {
         Ok(())
     }
 
+    /// Pushes the centres of beads.
+    ///
+    /// # Errors
+    /// If a bead has no site.
+    pub(super) fn push_beads(&mut self) -> Result<(), SceneProblem> {
+        let mut nodes = Nodes::default();
+        for (i, bead) in self.scene.beads.iter().enumerate() {
+            let site = self.site(&bead.site, &mut nodes).map_err(|error| {
+                SceneProblem::new(format!("beads[{i}].site"), "", error.to_string())
+            })?;
+            self.beads.push((site, bead.radius_nm));
+        }
+        Ok(())
+    }
+
     /// Pushes linker `i`, whose state changes in time.
     fn push_switched(
         &mut self,

@@ -2,21 +2,20 @@
 
 use super::{Body, Builder, Strand};
 use crate::assembly::Part;
-use crate::assembly::repulsion::{RepulsionModel, SurfaceGap};
-use crate::scene::{Repulsion, SceneProblem, SphereSide};
+use crate::assembly::repulsion::RepulsionModel;
+use crate::scene::SceneProblem;
 use actin_cosserat::RodLayout;
 use actin_coupling::repulsion::{
-    Axis, Capsule, ContactParameters, Contacts, RepulsionError, Side, Wall, WallContact,
+    Axis, Capsule, ContactParameters, Contacts, RepulsionError, WallContact,
 };
 use actin_ellipsoid::Monomers;
-use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
 impl Builder<'_> {
     /// Pushes the repulsion of a scene.
     ///
     /// # Errors
-    /// If filaments as built penetrate each other or a wall beyond the range of the repulsion.
+    /// If a radius or length is not positive.
     pub(super) fn push_repulsion(&mut self) -> Result<(), SceneProblem> {
         let Some(repulsion) = &self.scene.repulsion else {
             return Ok(());
@@ -33,13 +32,15 @@ impl Builder<'_> {
             .filaments
             .then(|| Contacts::new(capsules.clone(), parameters))
             .transpose()
-            .map_err(refused)?;
+            .map_err(refused)?
+            .map(|contacts| contacts.with_cell(self.cell));
         if let Some(contacts) = &contacts {
             self.stock
                 .push_term(Box::new(contacts.clone()), Part::Contacts);
         }
         let mut walls = Vec::new();
-        for (part, wall) in walls_of(repulsion) {
+        for (name, wall) in repulsion.walls().map_err(refused)? {
+            let part = Part::Wall(name);
             let wall =
                 WallContact::new(capsules.clone(), wall, radius, stiffness).map_err(refused)?;
             self.stock.push_term(Box::new(wall.clone()), part);
@@ -51,29 +52,8 @@ impl Builder<'_> {
             walls,
             radius_nm: radius,
         };
-        let touching = repelled.touching(&self.stock.state);
-        if let Some(beyond) = touching.iter().find(|touching| touching.is_beyond()) {
-            return Err(self.built_into(beyond, radius));
-        }
         self.repelled = Some(repelled);
         Ok(())
-    }
-
-    fn built_into(&self, touching: &SurfaceGap, radius: f64) -> SceneProblem {
-        let key = match touching.part {
-            Part::Plane(i) => format!("repulsion.planes[{i}]"),
-            Part::Sphere(i) => format!("repulsion.spheres[{i}]"),
-            _ => "repulsion.radius_nm".to_owned(),
-        };
-        let value = match touching.part {
-            Part::Contacts => format!("{radius:?}"),
-            _ => String::new(),
-        };
-        let rule = format!(
-            "in the initial state {}, more than repulsion can separate: increase the distance",
-            touching.in_words(self.filaments.len())
-        );
-        SceneProblem::new(key, value, rule)
     }
 
     fn capsules(&self) -> Result<Vec<Capsule>, RepulsionError> {
@@ -131,26 +111,4 @@ fn segments(
         )
     };
     lengths.map(capsule).collect()
-}
-
-fn walls_of(repulsion: &Repulsion) -> Vec<(Part, Wall)> {
-    let planes = repulsion.planes.iter().enumerate().map(|(i, plane)| {
-        let wall = Wall::Plane {
-            point: Vector3::from(plane.at_nm),
-            normal: Vector3::from(plane.normal),
-        };
-        (Part::Plane(i), wall)
-    });
-    let spheres = repulsion.spheres.iter().enumerate().map(|(i, sphere)| {
-        let wall = Wall::Sphere {
-            centre: Vector3::from(sphere.at_nm),
-            radius: sphere.radius_nm,
-            side: match sphere.side {
-                SphereSide::Inside => Side::Inside,
-                SphereSide::Outside => Side::Outside,
-            },
-        };
-        (Part::Sphere(i), wall)
-    });
-    planes.chain(spheres).collect()
 }

@@ -24,12 +24,9 @@ impl Builder<'_> {
                 let (strand, i) = strand_of(section);
                 strand.junction_bonds(i)
             }
-            Part::Load(_)
-            | Part::Linker(_)
-            | Part::Clamp(_)
-            | Part::Contacts
-            | Part::Plane(_)
-            | Part::Sphere(_) => Vec::new(),
+            Part::Load(_) | Part::Linker(_) | Part::Clamp(_) | Part::Contacts | Part::Wall(_) => {
+                Vec::new()
+            }
         };
         self.stock.terms.iter().map(|term| of(term.part)).collect()
     }
