@@ -43,8 +43,8 @@ _Sections: TypeAlias = Adaptive | Following | _Keys | Sequence[_Section]
 _Setting: TypeAlias = LoadFactor | Shift | Turn | SettingShear | Anchor | _Keys
 _Shape: TypeAlias = Literal["AtRest"] | Arc | Helix | Points | _Keys
 _ShearLaw: TypeAlias = Cubic | _Keys
+_Side: TypeAlias = Literal["Inside", "Outside"]
 _Slides: TypeAlias = Literal["Nowhere", "AlongAxis", "Freely"]
-_SphereSide: TypeAlias = Literal["Inside", "Outside"]
 _StretchLaw: TypeAlias = Constant | Sided | _Keys
 _Task: TypeAlias = Dynamics | Brownian | Equilibrium | _Keys
 _TwistLaw: TypeAlias = Tanh | TwistLawSided | _Keys
@@ -164,6 +164,23 @@ class Arc(Part):
         *,
         radius_nm: _Number,
         azimuth_deg: _Number = ...,
+    ) -> None: ...
+
+class Bead(Part):
+    """Spherical bead attached rigidly to a filament. A linker between the same site and an anchor is an optical trap.
+
+    The centre has the friction `6 pi eta r`, and rotations have `8 pi eta r^3`. `eta` is the viscosity of the fluid,
+    and `r` the radius. The friction of the filament is added. A bead has no mass and no contacts, and does not change
+    equilibria.
+
+    - `radius_nm`: Radius; positive.
+    - `site`: Centre of the bead, which may be off the axis of the filament.
+    """
+    def __init__(
+        self,
+        *,
+        radius_nm: _Number,
+        site: Site | _Keys,
     ) -> None: ...
 
 class Breaking(Part):
@@ -427,6 +444,19 @@ class Cubic(Part):
         linear_pn: ArrayLike,
     ) -> None: ...
 
+class Cuboid(Part):
+    """Box of six plane walls around the filaments.
+
+    - `at_nm`: Centre (lab frame); finite.
+    - `size_nm`: Edges along x, y and z; greater than the diameter of filaments.
+    """
+    def __init__(
+        self,
+        *,
+        at_nm: ArrayLike,
+        size_nm: ArrayLike,
+    ) -> None: ...
+
 class Curvature(Part):
     """Curvature at an arc length, as components along the axes of the cross-section as built and as magnitude:
     `curvature[0]_at_80nm_x_rad_per_nm`, `curvature[0]_at_80nm_rad_per_nm`. Values are interpolated linearly
@@ -441,6 +471,23 @@ class Curvature(Part):
         *,
         at_nm: _Number,
         filament: _Whole = ...,
+    ) -> None: ...
+
+class Cylinder(Part):
+    """Cylindrical wall of infinite length.
+
+    - `at_nm`: Point of the axis (lab frame); finite.
+    - `axis`: Direction of the axis (lab frame); any length except zero.
+    - `radius_nm`: Radius; positive. With `Inside` it is greater than the radius of filaments.
+    - `side`: Side of the cylinder on which the filaments are.
+    """
+    def __init__(
+        self,
+        *,
+        at_nm: ArrayLike,
+        axis: ArrayLike,
+        radius_nm: _Number,
+        side: _Side,
     ) -> None: ...
 
 class Drag(Part):
@@ -1046,8 +1093,8 @@ class Output(Part):
     ) -> None: ...
 
 class PeriodicBox(Part):
-    """Box that is repeated along x, y and z. Only linkers act across its faces: filaments are continuous, and a linker
-    has the `image` of its second end.
+    """Box that is repeated along x, y and z. Linkers and repulsion act across its faces: filaments are continuous, a
+    linker has the `image` of its second end, and filaments repel all images, including their own.
 
     A shear strain displaces the images along x in proportion to their distance along z, and so does the fluid of
     `Brownian`.
@@ -1154,9 +1201,10 @@ class Ramp(Part):
     ) -> None: ...
 
 class Random(Part):
-    """Filaments with uniformly distributed midpoints in a box and random rotations about their axes.
+    """Filaments with uniformly distributed midpoints in a box and random rotations about their axes, within the walls
+    of `repulsion`.
 
-    - `apart_nm`: Smallest distance to the axes of all preceding filaments; at least 0. By default the contact distance if
+    - `apart_nm`: Smallest distance to the axes of all preceding filaments and periodic images; at least 0. By default the contact distance if
     filaments repel each other, otherwise 0. Default: None.
     - `box_nm`: Edges of the box along x, y and z; at least 0. Ends of filaments may lie outside the box.
     - `centre_nm`: Centre of the box (lab frame); finite. Default: [0.0, 0.0, 0.0].
@@ -1190,6 +1238,8 @@ class Repulsion(Part):
     or closer than half of it at any time: they would pass through each other. `Equilibrium` rejects such steps.
     A wall exerts the force per length `k p^3/(6 R^3)` on a filament whose surface penetrates it by `p`.
 
+    - `cuboids`: Boxes around the filaments. Default: [].
+    - `cylinders`: Cylindrical walls. Default: [].
     - `filaments`: True if filaments repel each other. Parts of the same filament repel each other if their distance along
     it is at least three segments, three rises and `pi R`. `false` requires a wall. Default: True.
     - `planes`: Plane walls. Default: [].
@@ -1201,6 +1251,8 @@ class Repulsion(Part):
     def __init__(
         self,
         *,
+        cuboids: Sequence[Cuboid | _Keys] = ...,
+        cylinders: Sequence[Cylinder | _Keys] = ...,
         filaments: _Flag = ...,
         planes: Sequence[Plane | _Keys] = ...,
         radius_nm: _Number = ...,
@@ -1400,7 +1452,7 @@ class Sphere(Part):
         *,
         at_nm: ArrayLike,
         radius_nm: _Number,
-        side: _SphereSide,
+        side: _Side,
     ) -> None: ...
 
 class SquaredDisplacement(Part):
@@ -1809,6 +1861,7 @@ class SceneKeys(TypedDict, total=False):
     """Keys of a scene."""
 
     arrangements: Sequence[_Arrangement]
+    beads: Sequence[Bead | _Keys]
     burn_in_ns: _Number | None
     clamps: Sequence[Clamp | _Keys]
     crosslinkers: Sequence[Crosslinkers | _Keys]
