@@ -157,13 +157,13 @@ fn another_scene_is_refused_with_the_line() {
 fn other_formats_and_files_are_named() {
     let left = DamagedRun::new(CHOICE.motion());
     let mut bytes = left.bytes("checkpoint.bin");
-    bytes[8] = 9;
+    bytes[8] = 10;
     let checksum = crc32fast::hash(&bytes[..24]);
     bytes[24..28].copy_from_slice(&checksum.to_le_bytes());
     left.replace("checkpoint.bin", &bytes);
     let message = left.refusal();
     assert!(
-        message.ends_with("format version 9: this program reads version 8"),
+        message.ends_with("format version 10: this program reads version 9"),
         "{message}"
     );
     left.replace("checkpoint.bin", &[b'x'; 4000]);

@@ -35,7 +35,7 @@ struct Evaluated {
 /// The function is called once for each state. Exceptions end steps and solves.
 pub(crate) struct Callback {
     function: Py<PyAny>,
-    /// Whether the stiffness is computed by differences of the loads.
+    /// `true` if differences of the loads replace a missing stiffness.
     has_differences: bool,
     is_conservative: bool,
     /// Pairs of bodies with stiffness blocks, which are the same in all states.

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Number of steps between comparisons in the second half of a run. A comparison costs three steps.
-const APART: u64 = 50;
+/// Number of steps between comparisons. A comparison costs three steps.
+const APART: u64 = 100;
 
 /// Smallest number of comparisons for a result.
 const FEWEST: f64 = 16.0;
@@ -63,20 +63,43 @@ struct Sums {
 }
 
 /// Comparisons of a run so far, which checkpoints store.
+///
+/// Comparisons are grouped by the binary logarithm of their step, so that a longer run continues a shorter one.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct StepComparisons {
+    groups: BTreeMap<u32, Group>,
+}
+
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Group {
     count: f64,
     sums: BTreeMap<String, Sums>,
 }
 
+impl Group {
+    fn add(&mut self, other: &Self) {
+        self.count += other.count;
+        for (term, one) in &other.sums {
+            let sums = self.sums.entry(term.clone()).or_default();
+            sums.energy += one.energy;
+            sums.difference += one.difference;
+            sums.square += one.square;
+        }
+    }
+}
+
 impl StepComparisons {
-    /// Significant differences for a time step (ns).
+    /// Significant differences for a time step (ns), from the last two groups: half to three quarters of the run.
     pub(super) fn errors(&self, time_step_ns: f64) -> Vec<StepError> {
-        let n = self.count;
+        let mut all = Group::default();
+        for group in self.groups.values().rev().take(2) {
+            all.add(group);
+        }
+        let n = all.count;
         if n < FEWEST {
             return Vec::new();
         }
-        let errors = self.sums.iter().map(|(term, sums)| {
+        let errors = all.sums.iter().map(|(term, sums)| {
             let mean = sums.difference / n;
             let variance = (sums.square / n - mean * mean).max(0.0) / (n - 1.0);
             let energy = sums.energy / n;
@@ -101,7 +124,6 @@ pub(super) struct StepCheck<'a> {
     system: System,
     stepper: Brownian,
     time_step_ns: f64,
-    from: u64,
 }
 
 impl<'a> StepCheck<'a> {
@@ -116,13 +138,12 @@ impl<'a> StepCheck<'a> {
             system,
             stepper,
             time_step_ns: estimate.time_step_ns,
-            from: estimate.steps / 2,
         }
     }
 
     /// Compares after some of the steps.
     pub(super) fn compare(&mut self, state: &State, step: u64, comparisons: &mut StepComparisons) {
-        if step < self.from || !step.is_multiple_of(APART) {
+        if step == 0 || !step.is_multiple_of(APART) {
             return;
         }
         let h = self.time_step_ns;
@@ -132,10 +153,11 @@ impl<'a> StepCheck<'a> {
         let (Some(whole), Some(halves)) = (whole, halves) else {
             return;
         };
-        comparisons.count += 1.0;
+        let group = comparisons.groups.entry(step.ilog2()).or_default();
+        group.count += 1.0;
         for ((name, energy), other) in whole.into_iter().zip(halves.into_values()) {
             let difference = other - energy;
-            let sums = comparisons.sums.entry(name.to_owned()).or_default();
+            let sums = group.sums.entry(name.to_owned()).or_default();
             sums.energy += energy;
             sums.difference += difference;
             sums.square += difference * difference;
@@ -198,6 +220,6 @@ mod tests {
             long.iter().any(|error| error.term == "repulsion"),
             "{long:?}"
         );
-        assert_eq!(errors(2e3, ""), []);
+        assert_eq!(errors(4e3, ""), []);
     }
 }

@@ -66,6 +66,8 @@ const ALLOWED: [(&str, &[&str]); 20] = [
         &[
             "actin-mechanics",
             "actin-cosserat",
+            "actin-coupling",
+            "actin-brownian",
             "actin-integrate",
             "actin-equilibrium",
             "actin-export",
