@@ -125,7 +125,8 @@ impl Callback {
         state: &State,
         used: impl FnOnce(Python<'_>, &Evaluated) -> PyResult<T>,
     ) -> Option<T> {
-        let known = self.last().take().filter(|last| last.at == numbers(state));
+        let is_same = |last: &Evaluated| numbers(state).eq(last.at.iter().copied());
+        let known = self.last().take().filter(is_same);
         let found = Python::attach(|py| {
             let evaluated = known.map_or_else(|| self.evaluate(py, state), Ok)?;
             let result = used(py, &evaluated)?;
@@ -157,7 +158,7 @@ impl Callback {
         });
         let stiffness = given("stiffness")?.map(|given| blocks(&given, points + frames));
         Ok(Evaluated {
-            at: numbers(state),
+            at: numbers(state).collect(),
             force: values("force", points)?,
             torque: torque.collect(),
             energy: given("energy")?.map(Bound::unbind),
@@ -253,13 +254,13 @@ fn pairs(blocks: &[([usize; 2], Matrix3)]) -> Vec<[usize; 2]> {
 }
 
 /// Time and motion of all bodies, which identify a state.
-fn numbers(state: &State) -> Vec<f64> {
+fn numbers(state: &State) -> impl Iterator<Item = f64> + '_ {
     let (points, frames) = (&state.points, &state.frames);
     let vectors = [&points.position, &points.velocity, &frames.angular_momentum];
     let vectors = vectors.into_iter().flat_map(Vectors::iter);
     let turns = frames.orientation.iter().flat_map(|q| [q.w, q.i, q.j, q.k]);
     let all = vectors.flat_map(|v| [v.x, v.y, v.z]).chain(turns);
-    std::iter::once(state.time).chain(all).collect()
+    std::iter::once(state.time).chain(all)
 }
 
 /// Creates the argument of the function.
