@@ -82,12 +82,12 @@ impl Observe for InternalLoad {
             let SectionLoad {
                 force_pn,
                 couple_pn_nm,
-            } = loads.at(at);
+            } = loads.within(at);
             row.extend(force_pn.iter().chain(couple_pn_nm.iter()));
             return;
         }
         let places = view.ribbon(self.filament).s_nm.iter();
-        let local: Vec<(f64, SectionLoad)> = places.map(|&s| (s, loads.at(s))).collect();
+        let local: Vec<(f64, SectionLoad)> = places.map(|&s| (s, loads.within(s))).collect();
         for Extreme { value, rank, .. } in &EXTREMES {
             let rank = |one: &(f64, SectionLoad)| rank(value(&one.1));
             let extreme = local.iter().max_by(|a, b| rank(a).total_cmp(&rank(b)));
@@ -135,6 +135,12 @@ mod tests {
         }
         let largest = |name: &str| get(&format!("internal_load[0]_largest_{name}"));
         assert!(largest("moment_at_nm") < 2.8);
+        // The interface between the held monomers has the load of the start, the free end the load of the tip.
+        let profile = crate::shape::profile(&assembly, &record.state);
+        for point in &profile {
+            let force = point.load.force_pn.norm();
+            assert!((force - 1.0).abs() < 1e-6, "{}: {force}", point.s_nm);
+        }
         // The lever arm is the length of 100 nm plus the displacement under compression.
         let moment = largest("moment_pn_nm");
         assert!((60.0..66.0).contains(&moment), "{moment}");

@@ -37,6 +37,9 @@ impl SectionLoad {
     }
 }
 
+/// Distance (nm) from the last body of the cross-section whose load an end has.
+const BEFORE_END_NM: f64 = 1e-6;
+
 #[derive(Clone, Copy, Debug, Default)]
 struct Resultant {
     s_nm: f64,
@@ -90,6 +93,13 @@ impl SectionLoads {
         }
         let axis = Axis::from_ribbon(&Ribbon::from_state(assembly, filament, state));
         Self { resultants, axis }
+    }
+
+    /// Returns the internal load at an arc length (nm), at an end that of the filament next to it. Interfaces between
+    /// held monomers before the start have the load of the start.
+    pub(crate) fn within(&self, s_nm: f64) -> SectionLoad {
+        let end = self.resultants.first().map_or(0.0, |last| last.s_nm);
+        self.at(s_nm.min(end - BEFORE_END_NM).max(0.0))
     }
 
     /// Returns the internal load at an arc length (nm); zero beyond the ends of the filament.
