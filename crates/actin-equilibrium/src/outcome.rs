@@ -67,10 +67,10 @@ pub enum SolveError {
     /// Energy or loads of the initial state are not finite.
     #[error("energy or loads at the start are not finite")]
     NotFinite,
-    /// The energy is unbounded below.
+    /// A load acts along a motion whose stiffness is zero in the present state.
     #[error(
-        "a load acts along a motion without stiffness, so the energy has no minimum: hold a body or balance \
-         the loads"
+        "a load acts along a motion without stiffness in this state: hold a body, balance the loads, or tilt or \
+         stretch linkers at rest that are perpendicular to the load"
     )]
     Unbounded,
     /// The iteration limit was reached.

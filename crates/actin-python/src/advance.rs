@@ -179,7 +179,7 @@ impl System {
         name.map_or(Ok(self.settings.scheme), read_scheme)
     }
 
-    /// Returns `true` if no bodies were added to those of the scene.
+    /// Returns `true` if the system has only the bodies of its scene.
     pub(crate) fn has_bodies_of_scene(&self) -> bool {
         let count = |state: &State| (state.points.len(), state.frames.len());
         let assembly = self.assembly.as_ref();

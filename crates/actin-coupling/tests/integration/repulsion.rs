@@ -91,7 +91,7 @@ fn displace_last(state: &mut State, by: Vector3) {
     }
 }
 
-/// Forces equal those of the filament at the place of its image, whose energies are equal, too.
+/// Forces and energies equal the forces and energies of explicit copies of the filament.
 #[test]
 fn filaments_repel_each_other_across_faces() {
     let (mut state, capsules) = tangle();

@@ -95,8 +95,8 @@ impl SectionLoads {
         Self { resultants, axis }
     }
 
-    /// Returns the internal load at an arc length (nm), at an end that of the filament next to it. Interfaces between
-    /// held monomers before the start have the load of the start.
+    /// Returns the internal load at an arc length (nm). An end has the load of the adjacent cross-section; interfaces
+    /// between held monomers before the start have the load of the start.
     pub(crate) fn within(&self, s_nm: f64) -> SectionLoad {
         let end = self.resultants.first().map_or(0.0, |last| last.s_nm);
         self.at(s_nm.min(end - BEFORE_END_NM).max(0.0))

@@ -261,7 +261,7 @@ impl Assembly {
     /// If the arc length is outside of the filament.
     ///
     /// # Panics
-    /// If there is no such filament.
+    /// If the index of the filament is out of range.
     pub fn axis_site(&self, filament: usize, s_nm: f64) -> Result<Site, SceneProblem> {
         let span = &self.filaments[filament];
         let sections = self.sections_of(filament);
