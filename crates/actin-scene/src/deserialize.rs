@@ -407,6 +407,7 @@ impl<'de> Deserializer<'de> for Value<'de> {
                 Err(self.refused(format!("{name} is expected, not {found}")))
             }
             Kind::Group(..) => self.keys(name, visitor),
+            _ if self.is_chosen => self.keys(name, visitor),
             _ => Err(self.unbracketed(name)),
         }
     }
@@ -528,17 +529,11 @@ impl<'de> Choice<'de> {
         }
     }
 
-    fn inner(&self) -> Result<Value<'de>, DeserializeError> {
-        let (value, name) = (self.value, self.name());
-        match value.node.kind {
-            Kind::Group(..) => Ok(Value {
-                is_chosen: true,
-                ..value
-            }),
-            _ if value.node.is_dictionary() => Err(value.refused(format!(
-                "{name} has keys: write {{\"{name}\": {{}}}} with them"
-            ))),
-            _ => Err(value.unbracketed(name)),
+    /// Keys of the choice; a name alone has none, so that all keys have their defaults.
+    fn inner(&self) -> Value<'de> {
+        Value {
+            is_chosen: true,
+            ..self.value
         }
     }
 }
@@ -567,7 +562,7 @@ impl<'de> VariantAccess<'de> for Choice<'de> {
                 .refused(format!("{name} has no keys: write \"{name}\""))),
             Kind::Group(..) => {
                 let at = node.place.open.unwrap_or(node.place.value.start);
-                let message = "a choice without keys is written without brackets";
+                let message = format!("{name} has no keys: write it without brackets");
                 Err(DeserializeError::new(at, message))
             }
             _ => Ok(()),
@@ -578,7 +573,7 @@ impl<'de> VariantAccess<'de> for Choice<'de> {
         self,
         seed: T,
     ) -> Result<T::Value, DeserializeError> {
-        seed.deserialize(self.inner()?)
+        seed.deserialize(self.inner())
     }
 
     fn tuple_variant<V: Visitor<'de>>(
@@ -586,7 +581,7 @@ impl<'de> VariantAccess<'de> for Choice<'de> {
         _: usize,
         visitor: V,
     ) -> Result<V::Value, DeserializeError> {
-        self.inner()?.list(visitor)
+        self.inner().list(visitor)
     }
 
     fn struct_variant<V: Visitor<'de>>(
@@ -594,6 +589,6 @@ impl<'de> VariantAccess<'de> for Choice<'de> {
         _fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, DeserializeError> {
-        self.inner()?.keys(self.name(), visitor)
+        self.inner().keys(self.name(), visitor)
     }
 }

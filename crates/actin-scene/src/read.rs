@@ -139,6 +139,7 @@ pub fn read_all<T: DeserializeOwned>(text: &str, name: &str) -> ParseReport<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SceneKind as Kind;
 
     const SCENE: &str = "Scene(
     title: \"\u{3c6}\",
@@ -183,6 +184,35 @@ mod tests {
         assert!(latin.starts_with("1:4: byte 0xe9 is not UTF-8"), "{latin}");
         let wide = Scene::text(vec![0xff, 0xfe, b'S', 0]).unwrap_err();
         assert!(wide.message.contains("UTF-16"), "{wide}");
+    }
+
+    #[test]
+    fn a_name_alone_has_all_defaults() {
+        let scene = Scene::from_ron(SCENE).unwrap();
+        let alone = |text: &str| Scene::from_ron(text).map_err(|error| error.to_string());
+        let ron = SCENE.replace("Equilibrium()", "Equilibrium");
+        let keys =
+            "filament: {sections: [{Rod: {from_nm: 0, to_nm: 30}}]}\nclamps: [{end: Start}]\n";
+        let yaml = format!("title: \u{3c6}\n{keys}task: Equilibrium\n");
+        let mut value = scene.to_value();
+        value
+            .set("task", Kind::Text("Equilibrium".into()).into())
+            .unwrap();
+        assert_eq!(alone(&ron).as_ref(), Ok(&scene));
+        assert_eq!(alone(&yaml).as_ref(), Ok(&scene));
+        assert_eq!(Scene::from_value(&value, None).as_ref(), Ok(&scene));
+        let mut text = SceneText::new(&ron);
+        text.set("task.lowest_eigenvalue=true".parse().unwrap())
+            .unwrap();
+        assert!(text.scene().is_ok());
+        for (name, message) in [
+            ("Dynamics", "5:19: missing key `duration_ns` in Dynamics"),
+            ("Fitted", "5:11: unknown Task Fitted"),
+        ] {
+            let found =
+                alone(&ron.replace("task: Equilibrium", &format!("task: {name}"))).unwrap_err();
+            assert!(found.starts_with(message), "{found}");
+        }
     }
 
     #[test]

@@ -1,13 +1,37 @@
 //! JSON schema of scenes.
 
 use super::scene_file::SceneFile;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Returns the JSON schema of a scene, with the type, default and meaning of every key. `Name(key: value)` of
-/// an enum is an object with the single key `Name`. Relations between numbers are described in words;
-/// [`crate::Scene::from_ron`] checks them.
+/// an enum is an object with the single key `Name`, or the string `Name` if all keys have defaults. Relations
+/// between numbers are described in words; [`crate::Scene::from_ron`] checks them.
 pub fn schema() -> Value {
-    schemars::schema_for!(SceneFile).to_value()
+    let mut schema = schemars::schema_for!(SceneFile).to_value();
+    let definitions = schema["$defs"].clone();
+    let all = definitions.as_object();
+    for name in all.into_iter().flat_map(|all| all.keys()) {
+        if let Some(Value::Array(choices)) = schema["$defs"][name].get_mut("oneOf") {
+            let names: Vec<Value> = choices
+                .iter()
+                .filter_map(|one| name_alone(one, &definitions))
+                .collect();
+            choices.extend(names);
+        }
+    }
+    schema
+}
+
+/// Returns the schema of the name alone for a choice whose keys all have defaults.
+fn name_alone(choice: &Value, definitions: &Value) -> Option<Value> {
+    let (name, keys) = choice["properties"].as_object()?.iter().next()?;
+    let reference = keys["$ref"]
+        .as_str()
+        .and_then(|path| path.rsplit('/').next());
+    let keys = reference.map_or(keys, |reference| &definitions[reference]);
+    let description = format!("`{name}` with all defaults.");
+    let alone = json!({"type": "string", "const": name, "description": description});
+    keys["required"].is_null().then_some(alone)
 }
 
 #[cfg(test)]

@@ -529,7 +529,7 @@ mod tests {
             ("loads.force_pn=1.0", "loads is a list"),
             (
                 "clamps[0].end.x=1",
-                "clamps[0].end is Start, which has no keys",
+                "clamps[0].end: Start has no keys: write it without brackets",
             ),
             ("task[1]=3", "task is not a list"),
         ] {

@@ -306,8 +306,15 @@ impl SceneValue {
             *host = Self { key, ..value };
             return Ok(());
         };
-        if let (Kind::None, Step::Key(_)) = (&host.kind, first) {
-            host.kind = Kind::Group(None, Vec::new());
+        if let Step::Key(_) = first {
+            host.kind = match std::mem::replace(&mut host.kind, Kind::None) {
+                Kind::None => Kind::Group(None, Vec::new()),
+                Kind::Name(name) | Kind::Text(name) => {
+                    host.place.source = value.place.source;
+                    Kind::Group(Some(name), Vec::new())
+                }
+                other => other,
+            };
         }
         host.check_step(first, &name, &value).map_err(refused)?;
         let value = nested(inner, value).map_err(refused)?;
