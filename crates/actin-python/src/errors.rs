@@ -52,9 +52,17 @@ pub(crate) fn problem(py: Python<'_>, problem: &SceneProblem) -> PyErr {
     }
 }
 
+/// Text of a scene and its file.
+#[derive(Debug)]
+pub(crate) struct Source {
+    pub(crate) text: SceneText,
+    /// Path before line and column in messages, with a colon; empty without a file.
+    pub(crate) file: String,
+}
+
 /// Converts a problem of a scene, with its position in the text if there is one.
-pub(crate) fn placed(py: Python<'_>, text: Option<&SceneText>, found: &SceneProblem) -> PyErr {
-    let Some(text) = text else {
+pub(crate) fn placed(py: Python<'_>, source: Option<&Source>, found: &SceneProblem) -> PyErr {
+    let Some(Source { text, file }) = source else {
         return problem(py, found);
     };
     let error = text.locate(found);
@@ -66,22 +74,26 @@ pub(crate) fn placed(py: Python<'_>, text: Option<&SceneText>, found: &SceneProb
         .and_then(|()| attributes.set_item("line", error.line))
         .and_then(|()| attributes.set_item("column", error.column));
     match set {
-        Ok(()) => raise(py, "SceneError", &error.to_string(), &attributes),
+        Ok(()) => raise(py, "SceneError", &format!("{file}{error}"), &attributes),
         Err(error) => error,
     }
 }
 
 /// Converts all mistakes of a text to an exception about the first.
-pub(crate) fn mistakes(py: Python<'_>, text: &SceneText, first: SceneError) -> PyErr {
+pub(crate) fn mistakes(py: Python<'_>, source: &Source, first: SceneError) -> PyErr {
+    let Source { text, file } = source;
     let mut all = text.mistakes();
     if all.is_empty() {
         all.push(first);
     }
-    let lines: Vec<String> = all.iter().map(ToString::to_string).collect();
-    let each = all
+    let lines: Vec<String> = all
         .iter()
-        .map(|mistake| of_text(py, text, mistake, &mistake.to_string()));
-    let each: Vec<PyErr> = each.collect();
+        .map(|mistake| format!("{file}{mistake}"))
+        .collect();
+    let each = all.iter().zip(&lines);
+    let each: Vec<PyErr> = each
+        .map(|(mistake, line)| of_text(py, text, mistake, line))
+        .collect();
     let whole = of_text(py, text, &all[0], &lines.join("\n"));
     let list = PyList::new(py, each.iter().map(|error| error.value(py)));
     match list.and_then(|list| whole.value(py).setattr("mistakes", list)) {
@@ -91,8 +103,13 @@ pub(crate) fn mistakes(py: Python<'_>, text: &SceneText, first: SceneError) -> P
 }
 
 /// Converts an error of bytes that are not text.
-pub(crate) fn unread(py: Python<'_>, mistake: &SceneError) -> PyErr {
-    of_text(py, &SceneText::new(""), mistake, &mistake.to_string())
+pub(crate) fn unread(py: Python<'_>, file: &str, mistake: &SceneError) -> PyErr {
+    of_text(
+        py,
+        &SceneText::new(""),
+        mistake,
+        &format!("{file}{mistake}"),
+    )
 }
 
 fn of_text(py: Python<'_>, text: &SceneText, mistake: &SceneError, message: &str) -> PyErr {

@@ -1,6 +1,6 @@
 //! `Scene`: conversion from and to RON and dictionaries, changes and checks.
 
-use crate::errors;
+use crate::errors::{self, Source};
 use crate::value::{from_python, to_python};
 use actin_sim::{Assembly, Plan, RandomPart, Scene as Inner, SceneProblem, SceneText, SceneValue};
 use pyo3::prelude::*;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 pub(crate) struct Scene {
     pub(crate) inner: Inner,
     /// Text that the scene was read from, which locates problems.
-    pub(crate) text: Option<SceneText>,
+    pub(crate) text: Option<Source>,
 }
 
 impl PartialEq for Scene {
@@ -34,15 +34,13 @@ impl Scene {
         Ok(Self { inner, text: None })
     }
 
-    fn of_text(py: Python<'_>, text: &str, folder: Option<&Path>) -> PyResult<Self> {
-        let mut text = SceneText::new(text);
-        if let Some(folder) = folder {
-            let read = text.read_points(folder);
-            read.map_err(|error| errors::mistakes(py, &text, error))?;
-        }
-        let inner = text.scene();
-        let inner = inner.map_err(|error| errors::mistakes(py, &text, error))?;
-        let text = Some(text);
+    fn of_text(py: Python<'_>, text: &str, file: String, folder: &Path) -> PyResult<Self> {
+        let text = SceneText::new(text);
+        let mut source = Source { text, file };
+        let read = source.text.read_points(folder);
+        let inner = read.and_then(|()| source.text.scene());
+        let inner = inner.map_err(|error| errors::mistakes(py, &source, error))?;
+        let text = Some(source);
         Ok(Self { inner, text })
     }
 
@@ -52,8 +50,9 @@ impl Scene {
         let named =
             |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
         let bytes = std::fs::read(path).map_err(named)?;
-        let text = Inner::text(bytes).map_err(|error| errors::unread(py, &error))?;
-        Self::of_text(py, &text, path.parent())
+        let file = format!("{}:", path.display());
+        let text = Inner::text(bytes).map_err(|error| errors::unread(py, &file, &error))?;
+        Self::of_text(py, &text, file, path.parent().unwrap_or(path))
     }
 
     /// Reports a problem that was found when the scene was built or run.
@@ -91,7 +90,7 @@ impl Scene {
     #[staticmethod]
     #[pyo3(signature = (text, folder = PathBuf::new()))]
     fn from_ron(py: Python<'_>, text: &str, folder: PathBuf) -> PyResult<Self> {
-        Self::of_text(py, text, Some(&folder))
+        Self::of_text(py, text, String::new(), &folder)
     }
 
     /// Reads a scene file.

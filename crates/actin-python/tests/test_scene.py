@@ -68,6 +68,17 @@ def test_files_that_cannot_be_read(tmp_path):
     assert (caught.value.line, caught.value.column) == (2, 13)
 
 
+def test_errors_of_a_file_begin_with_its_path(text, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bent.ron").write_text(text.replace("to_nm: 160.0", "to: 160.0"))
+    with pytest.raises(af.SceneError, match=r"^bent\.ron:5:32: unknown key `to`") as caught:
+        af.Scene.from_file("bent.ron")
+    assert str(caught.value.mistakes[0]) == str(caught.value)
+    for solve in (af.equilibrium, af.run):
+        with pytest.raises(TypeError, match="Scene"):
+            solve("bent.ron")
+
+
 def test_all_mistakes_of_a_text_are_reported(text):
     with pytest.raises(af.SceneError) as caught:
         af.Scene.from_ron(text.replace("segments", "segmens").replace("end: Start", "end: Begin"))
@@ -83,7 +94,7 @@ def test_all_mistakes_of_a_text_are_reported(text):
         ("filament.sections[0].to_nm", 50.0, "filament.sections[1].from_nm"),
         ("loads[0].force_pn[1]", float("nan"), "loads[0].force_pn"),
         ("loads[1].force_pn", 1.0, "loads[1].force_pn"),
-        ("task", "Equilibrium", "task"),
+        ("task", "Dynamics", "task"),
         ("filament.rod.law", "Fited", "filament.rod.law"),
     ],
 )

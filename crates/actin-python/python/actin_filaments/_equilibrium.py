@@ -22,6 +22,8 @@ def equilibrium(
 
     Raises `SceneError`, and `RunFailed` if no stable equilibrium is found.
     """
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene must be a Scene, not {type(scene).__name__}: Scene.from_file reads a file")
     if scene.task != "Equilibrium":
         scene = scene.set("task", {"Equilibrium": {}})
     for key, value in settings.items():
