@@ -43,16 +43,21 @@ impl fmt::Display for LawExtrapolation {
             (" rad/nm", "bending elements")
         };
         let error = self.error_text();
+        // As many decimals as distinguish the two numbers.
+        let [size, limit] = [value.abs(), range.abs()];
+        let digits =
+            (4..12).find(|&digits| format!("{size:.digits$}") != format!("{limit:.digits$}"));
+        let digits = digits.unwrap_or(12);
         match self.fluctuations {
             None => write!(
                 f,
-                "{quantity} {value:.4}{unit} at {place} exceeds the data of the rod law ({range:.4}): results there are \
+                "{quantity} {value:.digits$}{unit} at {place} exceeds the data of the rod law ({range:.digits$}): results there are \
                  extrapolated; {error}"
             ),
             Some(often) => write!(
                 f,
                 "{quantity} fluctuates beyond the data of the rod law in {} of the records and {} of all {elements}: at most \
-                 {value:.4}{unit} at {place}, where the data end at {range:.4}; {error}",
+                 {value:.digits$}{unit} at {place}, where the data end at {range:.digits$}; {error}",
                 percent(often.share_of_records),
                 percent(often.share_of_elements)
             ),
@@ -550,6 +555,13 @@ mod tests {
         assert_eq!(found.len(), 1);
         let (beyond, section) = (&found[0], &assembly.sections[1]);
         assert_eq!((beyond.section, beyond.quantity.as_str()), (1, "twist"));
+        let near = LawExtrapolation {
+            value: -0.00204,
+            range: 0.002,
+            ..beyond.clone()
+        };
+        let text = near.to_string();
+        assert!(text.contains("-0.00204 rad/nm") && text.contains("(0.00200)"));
         assert!((beyond.s_nm - section.from_nm).abs() < 1e-12);
         let segment = 2.0 * (assembly.frames[section.frames.start].s_nm - section.from_nm);
         let distance = 0.5 * segment + 0.25 * 2.7385;

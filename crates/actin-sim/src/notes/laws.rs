@@ -26,8 +26,6 @@ fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
     }
 }
 
-const COMMAND: &str = "cargo run --release -p actin-paper --example persistence_length";
-
 /// Warnings on the laws of a filament's rods, in a heat bath of temperature `bath_k` (K) or without
 /// a bath.
 pub(super) fn notes(filament: &Filament, bath_k: Option<f64>) -> Vec<String> {
@@ -114,7 +112,7 @@ const DRAWN_IN_BATH: &str = "rods with the law Homogenised at 298 K: they repres
 /// Warning on the published rigidities, with the numbers of bounds met
 /// (`docs/tables/load-cases.md`).
 const CONSTANT: &str = "rods with the law Constant, the published rigidities: this law reproduces 11 of 92 measured \
-    quantities of monomer filaments within the required tolerance, Homogenised 82 (cargo xtask load-cases)";
+    quantities of monomer filaments within the required tolerance, Homogenised 82 (docs/tables/load-cases.md)";
 
 const HEATED: &str = "rods with the law HomogenisedAt298K without a heat bath: their free energy at 298 K is minimal at a \
     length 0.46 % below the initial length, so a rod held at both ends is under tension. Without heat, Homogenised \
@@ -141,7 +139,7 @@ fn law_in_bath(rod: &RodModel, temperature_k: f64) -> Option<String> {
          at zero temperature, so the law is not a free energy. At 298 K free filaments of 110 nm have, with \
          these rods, a persistence length of {persistence:.1} um and a twisting rigidity of \
          {twist:.1e} pN nm^2, with monomers {of_monomers:.1} um and {twist_of_monomers:.1e} pN nm^2 \
-         ({COMMAND})"
+         (docs/measured/heat.md)"
     ))
 }
 #[cfg(test)]
@@ -226,6 +224,7 @@ mod tests {
                 "rods with the law HomogenisedAthermal in a heat bath",
             ]
         );
+        assert!(found.iter().all(|note| !note.contains("cargo")));
         let at_rest = notes(&filaments, "");
         assert_eq!(at_rest.len(), 2, "{at_rest:?}");
         assert_eq!(at_rest[1], CONSTANT);

@@ -171,8 +171,7 @@ impl Assembly {
             format!(
                 "a rod of {shortest:.1} nm with the law Homogenised: its bending is isotropic, but the compliance of \
                  monomers between walls 60, 41, 30, 25 nm apart depends on the direction by up to 10, 25, 50, 55 % of the \
-                 mean. A rod meets the mean to 3 % for 41 nm and more, 4 % at 30 nm, 7 % at 25 nm \
-                 (cargo xtask load-cases --ends)"
+                 mean. A rod meets the mean to 3 % for 41 nm and more, 4 % at 30 nm, 7 % at 25 nm"
             )
         })
     }
@@ -288,7 +287,7 @@ fn several_states(assembly: &Assembly, state: &State) -> Option<String> {
     Some(format!(
         "the rod {} has an under-twist and bending at which monomers would have several states, with axial torques that differ by \
          5 to 110 pN nm. A rod has one state. Resolve monomers there to distinguish \
-         them (cargo xtask homogenise states)",
+         them (docs/measured/homogenised.md)",
         places.join(", ")
     ))
 }
