@@ -30,10 +30,12 @@ struct Evaluated {
     stiffness: Option<Blocks>,
 }
 
-/// Loads from a Python function of all bodies, with the term name `field`.
+/// Loads from a Python function of all bodies.
 ///
 /// The function is called once for each state. Exceptions end steps and solves.
 pub(crate) struct Callback {
+    /// Name of the term.
+    name: &'static str,
     function: Py<PyAny>,
     /// `true` if differences of the loads replace a missing stiffness.
     has_differences: bool,
@@ -63,6 +65,7 @@ impl Callback {
         let module = py.import("actin_filaments._loads")?;
         let function = module.call_method1("of_positions", (force, energy))?;
         Ok(Self {
+            name: "field",
             function: function.unbind(),
             has_differences,
             is_conservative,
@@ -76,12 +79,14 @@ impl Callback {
     /// energy and stiffness blocks.
     pub(crate) fn new(
         py: Python<'_>,
+        name: &'static str,
         function: Py<PyAny>,
         has_differences: bool,
         state: &State,
         error: Arc<Mutex<Option<PyErr>>>,
     ) -> PyResult<Self> {
         let mut made = Self {
+            name,
             function,
             has_differences,
             is_conservative: false,
@@ -303,7 +308,7 @@ fn blocks(given: &Bound<'_, PyAny>, bodies: usize) -> PyResult<Blocks> {
 
 impl Interaction for Callback {
     fn term(&self) -> &'static str {
-        "field"
+        self.name
     }
 
     fn add_loads(&self, state: &State, loads: &mut Loads) {

@@ -117,15 +117,22 @@ impl System {
     /// require energy and stiffness. It is called here as well, with the present state.
     ///
     /// - `differences`: computes a missing stiffness from differences of the loads, in six calls for each body.
-    #[pyo3(signature = (function, *, differences = false))]
+    /// - `name`: name of the term in `energies`.
+    #[pyo3(signature = (function, *, differences = false, name = "field"))]
     fn add_loads(
         &mut self,
         py: Python<'_>,
         function: Py<PyAny>,
         differences: bool,
+        name: &str,
     ) -> PyResult<usize> {
         let error = Arc::clone(&self.error);
-        let field = Callback::new(py, function, differences, self.state(), error)?;
+        // Names of terms are static: a user-defined name remains in memory.
+        let name: &'static str = match name {
+            "field" => "field",
+            name => name.to_owned().leak(),
+        };
+        let field = Callback::new(py, name, function, differences, self.state(), error)?;
         Ok(self.push_callback(field))
     }
 

@@ -227,7 +227,9 @@ class System:
 
         - `differences`: as in `add_loads`.
         """
-    def add_loads(self, function: Callable[[Bodies], Loads | ArrayLike], *, differences: bool = False) -> int:
+    def add_loads(
+        self, function: Callable[[Bodies], Loads | ArrayLike], *, differences: bool = False, name: str = "field"
+    ) -> int:
         """Adds the loads of `function(bodies)`, where `bodies` has `time`, `position`, `velocity`, `quaternion` and
         `angular_momentum`. Returns a number for `remove`.
 
@@ -236,6 +238,7 @@ class System:
         require energy and stiffness. It is called here as well, with the present state.
 
         - `differences`: computes a missing stiffness from differences of the loads, in six calls for each body.
+        - `name`: name of the term in `energies`.
         """
     def remove(self, number: int) -> None:
         """Removes springs, a linker, a field or loads, by the number returned when they were added."""
