@@ -110,6 +110,17 @@ def test_exports(run, scene, tmp_path):
         assert np.allclose(moved, run.position_nm[10] - run.position_nm[0], atol=1e-3)
 
 
+def test_vtk_files_are_read(run, tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    *_, collection = run.to_vtk(tmp_path)
+    records = pyvista.get_reader(collection)
+    assert records.time_values == pytest.approx(run.time_ns)
+    records.set_active_time_point(10)
+    (points,) = records.read()
+    assert points.n_points == 25 and np.array_equal(points["s_nm"], run.s_nm)
+    assert np.allclose(points.points, run.position_nm[10], rtol=1e-6)
+
+
 def test_files_of_switching_linkers_need_a_directory(tmp_path):
     scene = af.Scene.from_ron(
         """Scene(

@@ -1,7 +1,9 @@
 """Runs: arrays, certificates, directories, failures, interrupts, progress, sweeps."""
 
 import os
+import shutil
 import signal
+import subprocess
 import threading
 import time
 import warnings
@@ -229,6 +231,8 @@ def test_a_sweep_is_a_mapping_from_values_to_runs(scene):
         table[-3.0, "Fitted"]
     frame = table.to_dataframe()
     assert list(frame["filament.rod.law"]) == [law for _, law in table] and set(frame["status"]) == {"converged"}
+    assert frame.index.dtype == frame["point"].dtype == np.int64 and "seed" not in frame
+    assert set(frame["failure"]) == {""}
 
 
 def test_a_latin_hypercube_fills_each_interval(scene):
@@ -316,3 +320,20 @@ def test_a_sweep_is_a_workflow(scene, tmp_path):
     assert "rule table" in (tmp_path / "flow" / "Snakefile").read_text()
     table = af.sweep(scene, vary, results, out=tmp_path / "flow", resume=True)
     assert len(table) == 2 and table.failed == 0
+
+
+def test_snakemake_makes_the_runs_of_a_workflow(root, scene, tmp_path):
+    program = shutil.which(os.environ.get("SNAKEMAKE", "snakemake"))
+    if program is None or not (root / "target/debug/actin").exists():
+        assert "ACTIN_REQUIRE_SNAKEMAKE" not in os.environ
+        pytest.skip("Snakemake or the program actin is missing")
+    vary, results, flow = {"loads[0].force_pn[0]": [-1.0, -2.0]}, ["tip_nm[0]"], tmp_path / "flow"
+    af.snakemake(scene, vary, results, flow)
+    environment = os.environ | {
+        "PATH": f"{root / 'target/debug'}{os.pathsep}{os.environ['PATH']}", "XDG_CACHE_HOME": str(tmp_path)
+    }
+    subprocess.run([program, "--cores", "2", "--quiet", "all"], cwd=flow, env=environment, check=True)
+    with (flow / "table.csv").open() as rows:
+        assert len(rows.readlines()) == 3
+    table = af.sweep(scene, vary, results, out=flow, resume=True)
+    assert table["tip_nm[0]"][1] == pytest.approx(af.equilibrium(scene).tip_nm[0], rel=1e-9)

@@ -48,7 +48,7 @@ def test_a_wrong_key_fails_at_once(make, key, meant):
 
 
 def test_positional_arguments_are_refused():
-    with pytest.raises(TypeError):
+    with pytest.raises(TypeError, match=r"write Rod\(from_nm=0.0, to_nm=40.0\)"):
         Rod(0.0, 40.0)
 
 

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     import pandas
 
 
+KINDS = {"run": int, "point": int, "seed": int, "status": str, "failure": str, "warnings": str}
+
+
 class Sweep(Mapping[Any, Any]):
     """Results of a sweep: a mapping from the varied values to the runs, and a table.
 
@@ -31,7 +34,7 @@ class Sweep(Mapping[Any, Any]):
     """
 
     columns: dict[str, NDArray[Any]]
-    """One row for each run: varied values, seed, status, results. Results of failed runs are NaN."""
+    """One row for each run: varied values, `seed` of samples, status, results. Results of failed runs are NaN."""
     parameters: list[str]
     """Names of the varied columns, with `seed` if there are samples."""
     failed: int
@@ -148,7 +151,7 @@ def sweep(
     _, failed = carry_out(scene, folder, axes, list(results), samples, first_seed, jobs, resume, progress)
     with (folder / "runs.csv").open(newline="") as lines:
         names, *rows = csv.reader(lines)
-    columns = {name: _column([row[k] for row in rows]) for k, name in enumerate(names)}
+    columns = {name: _column(name, [row[k] for row in rows]) for k, name in enumerate(names) if samples or name != "seed"}
     parameters = [key for keys, _ in axes for key in keys] + (["seed"] if samples else [])
     return Sweep(columns, parameters, failed, folder, kept)
 
@@ -170,8 +173,10 @@ def snakemake(
     return emit_snakemake(scene, Path(out), axes, list(results), samples, first_seed)
 
 
-def _column(values: list[str]) -> NDArray[Any]:
+def _column(name: str, values: list[str]) -> NDArray[Any]:
     """Converts a column to numbers if possible; missing values become NaN."""
+    if name in KINDS:
+        return np.array([KINDS[name](value) for value in values])
     try:
         return np.array([float(value) if value else np.nan for value in values])
     except ValueError:

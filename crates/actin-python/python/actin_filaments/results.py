@@ -285,7 +285,10 @@ class Run:
         return _exports.to_mdanalysis(self)
 
     def to_gsd(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> list[Path]:
-        """Writes a GSD file for OVITO, HOOMD-blue or MDAnalysis. Returns the written files."""
+        """Writes a GSD file for OVITO, HOOMD-blue or MDAnalysis. Returns the written files.
+
+        Positions are centres of monomers and nodes of rods, in single precision and relative to the centre of the box.
+        """
         return _exports.export(self, "gsd", path, overwrite)
 
     def to_simularium(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> list[Path]:

@@ -57,8 +57,12 @@ class Part(dict[str, Any]):
     _choice: str | None = None
     _schema: dict[str, Any] = {}
 
-    def __init__(self, **keys: Any) -> None:
+    def __init__(self, *values: Any, **keys: Any) -> None:
         properties, name = self._schema.get("properties", {}), type(self).__name__
+        if values:
+            named = zip(self._schema.get("required") or properties, values)
+            hint = ", ".join(f"{argument(key)}={value!r}" for key, value in named)
+            raise TypeError(f"{name} has keyword arguments only: write {name}({hint})")
         keys = {key.removesuffix("_"): value for key, value in keys.items()}
         for key, value in keys.items():
             if key not in properties:
