@@ -283,7 +283,7 @@ const Space = (() => {
         font: '13px system-ui, sans-serif', textBaseline: 'middle', textAlign: 'center',
       });
       this.taken = [];
-      for (const one of this.arrows) this.arrow(one, w);
+      for (const one of this.arrows) this.arrow(one, w, h);
       for (const one of this.labels) this.label(one);
       for (const place of this.marks) {
         context.beginPath();
@@ -316,15 +316,19 @@ const Space = (() => {
       return true;
     }
 
-    // Draws an arrow with its text. Short arrows have a third of the full length.
-    arrow([x, y, z, fx, fy, fz, text, share = 1], w) {
+    // Draws an arrow with its text. Short arrows have a third of the full length. An arrow from its place out of the
+    // picture or onto the axes ends at its place instead.
+    arrow([x, y, z, fx, fy, fz, text, share = 1], w, h) {
       const { context } = this, size = Math.hypot(fx, fy, fz), at = this.pixel(this.see(x, y, z));
       const seen = this.rows.map((row) => dot(row, [fx, fy, fz]) / size);
       const length = ARROW * Math.max(1 / 3, share);
-      const tip = [at[0] + length * seen[0], at[1] - length * seen[1]];
+      const to = [at[0] + length * seen[0], at[1] - length * seen[1]];
+      const isOut = to[0] < 8 || to[0] > w - 8 || to[1] < 26 || to[1] > h - 30 || (to[0] > w - 84 && to[1] > h - 96);
+      const way = isOut ? -1 : 1, end = [at[0] + way * length * seen[0], at[1] - way * length * seen[1]];
+      const tip = isOut ? at : end;
       context.lineWidth = 3;
       context.save();
-      this.path([at, tip]);
+      this.path([at, end]);
       const across = Math.hypot(seen[0], seen[1]);
       if (across > 0.1) {
         const u = [seen[0] / across, -seen[1] / across];
@@ -332,8 +336,8 @@ const Space = (() => {
         this.path([head(1), tip, head(-1)]);
       }
       const half = context.measureText(text).width / 2 + 6;
-      const inside = Math.min(w - half, Math.max(half, tip[0] + 30 * seen[0]));
-      const top = tip[1] + 4 - 16 * seen[1];
+      const inside = Math.min(w - half, Math.max(half, end[0] + 30 * way * seen[0]));
+      const top = end[1] + 4 - 16 * way * seen[1];
       if (this.takes(inside - half, top, 2 * half)) context.fillText(text, inside, top);
       context.restore();
     }
