@@ -49,7 +49,7 @@ const Solids = (() => {
         mixed += share * a.xxy * a.yzz;
         half_ += semi[k] * semi[k] * a.xy * a.xy;
       }
-      vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+      vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1) * 2.0 - 1.0;
       at = corner * (sqrt(half_) + ratio / perNm);
       colour = rgb(paint);
       depth = vec2(c.z, how.y);
@@ -113,7 +113,7 @@ const Solids = (() => {
       float r = max(how.x, 0.5 * how.y * ratio / perNm);
       float across = length(along.xy);
       vec2 d = across > 1e-6 ? along.xy / across : vec2(1.0, 0.0);
-      vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+      vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1) * 2.0 - 1.0;
       float spare = ratio / perNm;
       at = 0.5 * along.xy + d * corner.x * (0.5 * across + 1.5 * r + spare)
         + vec2(-d.y, d.x) * corner.y * (r + spare);
@@ -159,8 +159,7 @@ const Solids = (() => {
       shade(n, colour, shape.y + z, shape.z);
     }`;
 
-  // A thin tube seen from afar: a rectangle with the shading of a tube. All strips are one draw call without instances,
-  // each of which takes 20 us in a software renderer.
+  // A thin tube seen from afar: a rectangle with the shading of a tube.
   const STRIP_VERTEX = `#version 300 es
     ${CAMERA}
     layout(location = 0) in vec3 p;
@@ -459,7 +458,7 @@ const Solids = (() => {
   }
 
   // Creates the vertex buffer of a list.
-  function uploaded(list, layout, isNew, divisor) {
+  function uploaded(list, layout, isNew, corners) {
     if (list.generation !== generation) {
       list.generation = generation;
       list.array = gl.createVertexArray();
@@ -470,20 +469,30 @@ const Solids = (() => {
         gl.enableVertexAttribArray(k);
         if (isInteger) gl.vertexAttribIPointer(k, count, gl.UNSIGNED_INT, 4 * list.words, 4 * offset);
         else gl.vertexAttribPointer(k, count, gl.FLOAT, false, 4 * list.words, 4 * offset);
-        gl.vertexAttribDivisor(k, divisor);
       });
       isNew = true;
     }
     gl.bindVertexArray(list.array);
     if (isNew) {
       gl.bindBuffer(gl.ARRAY_BUFFER, list.buffer);
-      gl.bufferData(gl.ARRAY_BUFFER, list.floats.subarray(0, list.words * list.count), gl.DYNAMIC_DRAW);
+      gl.bufferData(gl.ARRAY_BUFFER, repeated(list, corners), gl.DYNAMIC_DRAW);
     }
   }
 
-  // Draws strips, as two triangles each.
-  function drawStrips(list) {
-    const count = list.count / 4;
+  // Repeats each element of a list for its corners.
+  function repeated({ words, count, integers }, corners) {
+    if (corners === 1) return integers.subarray(0, words * count);
+    const all = new Uint32Array(corners * words * count);
+    for (let i = 0, to = 0; i < count; i++) {
+      for (let corner = 0; corner < corners; corner++) {
+        for (let k = 0; k < words; k++, to++) all[to] = integers[words * i + k];
+      }
+    }
+    return all;
+  }
+
+  // Draws two triangles for each four vertices. An instance would take 20 us in a software renderer.
+  function drawQuads(list, count) {
     if (!list.corners || list.corners.length < 6 * count || list.cornersOf !== generation) {
       list.corners = Uint32Array.from({ length: 12 * count }, (_, i) => 4 * Math.floor(i / 6) + [0, 1, 2, 2, 1, 3][i % 6]);
       list.cornersOf = generation;
@@ -531,9 +540,9 @@ const Solids = (() => {
       [batch.strips, STRIP_LAYOUT, 'strip']]) {
       if (list.count === 0) continue;
       use(programs[kind], camera);
-      uploaded(list, layout, batch.isNew, kind === 'strip' ? 0 : 1);
-      if (kind === 'strip') drawStrips(list);
-      else gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, list.count);
+      const corners = kind === 'strip' ? 1 : 4; // a strip has four elements
+      uploaded(list, layout, batch.isNew, corners);
+      drawQuads(list, (corners * list.count) / 4);
     }
     batch.isNew = false;
     if (camera.effort > 0) finish(camera);
