@@ -4,6 +4,17 @@ use actin_equilibrium::{ComponentStep, StepSize};
 /// Largest accepted energy error of a component (kT).
 const ENOUGH: f64 = 1e-2;
 
+/// As [`ENOUGH`], for components in contact. Forces of contacts then have errors of a few per cent: a depth `p` with
+/// the force `F ~ p^4` and the energy `F p / 5`, of a tenth of kT in long steps, changes the energy by
+/// `2 F p (dp/p)^2`.
+const ENOUGH_IN_CONTACT: f64 = 1e-5;
+
+/// Changes of energy, one per component (in units of kT), below which components count as solved.
+pub(crate) fn tolerances(in_contact: &[bool]) -> Vec<f64> {
+    let of = |touches: &bool| if *touches { ENOUGH_IN_CONTACT } else { ENOUGH };
+    in_contact.iter().map(of).collect()
+}
+
 /// Number of initial iterations that may grow without added friction.
 const FREE_ITERATIONS: usize = 2;
 
@@ -92,32 +103,32 @@ impl Progress {
     }
 
     /// Reopens solved components whose loads allow a further decrease of energy of more than a
-    /// hundredth of the thermal energy. Returns `true` if there are none.
-    pub(crate) fn reopen(&mut self, decreases: &[f64], thermal_energy: f64) -> bool {
-        let enough = ENOUGH * thermal_energy;
-        for (component, decrease) in self.components.iter_mut().zip(decreases) {
+    /// tolerance (pN nm, one per component). Returns `true` if there are none.
+    pub(crate) fn reopen(&mut self, decreases: &[f64], tolerances: &[f64]) -> bool {
+        let decreases = decreases.iter().zip(tolerances);
+        for (component, (decrease, enough)) in self.components.iter_mut().zip(decreases) {
             // Also for NaN.
-            component.is_solved &= decrease.abs() <= enough;
+            component.is_solved &= decrease.abs() <= *enough;
         }
         self.components.iter().all(|component| component.is_solved)
     }
 
     /// Records an iteration. Returns `true` if the predicted next step of each component is within
-    /// the limits, or changes the energy by less than a hundredth of the thermal energy.
+    /// the limits, or changes the energy by less than its tolerance (pN nm).
     pub(crate) fn record(
         &mut self,
         steps: &[ComponentStep],
         is_selected: impl Fn(usize) -> bool,
         limits: &StepLimits,
-        thermal_energy: f64,
+        tolerances: &[f64],
     ) -> bool {
         let is_first = self.is_first();
         let components = self.components.iter_mut().zip(steps).enumerate();
-        for (_, (component, step)) in components.filter(|(c, _)| is_selected(*c)) {
+        for (c, (component, step)) in components.filter(|(c, _)| is_selected(*c)) {
             if is_first {
                 component.begin(step, limits);
             } else {
-                component.record(step, self.iterations, limits, ENOUGH * thermal_energy);
+                component.record(step, self.iterations, limits, tolerances[c]);
             }
         }
         let largest = self.largest().displacement;

@@ -2,7 +2,7 @@
 
 use super::{Brownian, LARGEST_TURN, spin};
 use crate::components::{Components, Subset};
-use crate::progress::Progress;
+use crate::progress::{self, Progress};
 use crate::stress::StepMatrix;
 use actin_equilibrium::{ComponentStep, StepSize};
 use actin_integrate::StepFailure;
@@ -40,10 +40,13 @@ impl Brownian {
             }
             let limits = self.progress.limits(LARGEST_TURN);
             let steps = self.advance(system, &limits);
+            let tolerances = self.tolerances(system);
             let components = &self.components;
             let is_selected = |c| components.has_component(c);
-            let kt = self.thermal_energy;
-            is_solved = self.progress.record(&steps, is_selected, &self.limits, kt);
+            let limits = &self.limits;
+            is_solved = self
+                .progress
+                .record(&steps, is_selected, limits, &tolerances);
             is_solved = is_solved && is_found && self.is_balanced(system, h);
             if is_solved {
                 break;
@@ -68,7 +71,18 @@ impl Brownian {
         self.find_residual(system, h);
         let state = system.state();
         let decreases = self.solver.predicted_decreases(state, &self.residual);
-        self.progress.reopen(&decreases, self.thermal_energy)
+        let tolerances = self.tolerances(system);
+        self.progress.reopen(&decreases, &tolerances)
+    }
+
+    /// Change of energy (pN nm) below which each component counts as solved.
+    fn tolerances(&mut self, system: &System) -> Vec<f64> {
+        let (state, interactions) = (system.state(), system.interactions());
+        let in_contact = self
+            .components
+            .in_contact(interactions, state, &mut self.loads);
+        let in_kt = progress::tolerances(&in_contact).into_iter();
+        in_kt.map(|enough| enough * self.thermal_energy).collect()
     }
 
     /// Moves the bodies by the step of an iteration. Bodies that repel each other meet, but do not

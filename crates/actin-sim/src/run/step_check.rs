@@ -183,29 +183,39 @@ impl<'a> StepCheck<'a> {
 #[cfg(test)]
 mod tests {
     use super::StepError;
-    use crate::{Assembly, Plan, Scene};
+    use crate::{Assembly, BOLTZMANN_PN_NM_PER_K, Plan, Record, Scene, Sink};
+    use actin_mechanics::Loads;
+
+    const FILAMENTS: usize = 20;
+    const BLOCKS: usize = 20;
 
     /// Errors of a run of free filaments.
     fn errors(steps: f64, keys: &str) -> Vec<StepError> {
-        let text = format!(
+        let text = scene(steps, 1e4, keys);
+        let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+        let (_, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+        outcome.step_errors
+    }
+
+    /// Free filaments in steps of `step_ns`, with more keys of the scene.
+    fn scene(steps: f64, step_ns: f64, keys: &str) -> String {
+        format!(
             "Scene(
                 arrangements: [Copies(
                     filament: Filament(
                         sections: [Rod(from_nm: 0.0, to_nm: 200.0, segments: 2)], rod: RodModel(law: Constant),
                     ),
-                    count: 20, shift_nm: (0.0, 1000.0, 0.0),
+                    count: {FILAMENTS}, shift_nm: (0.0, 1000.0, 0.0),
                 )],
                 {keys}
                 output: Output(vtk: false, states: false),
                 task: Brownian(
-                    duration_ms: {:?}, temperature_k: 298.0, time_step_ns: 1e4, seed: 1,
+                    duration_ms: {:?}, temperature_k: 298.0, time_step_ns: {step_ns:?}, record_every_ns: {step_ns:?},
+                    seed: 1,
                 ),
             )",
-            steps * 1e-2
-        );
-        let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
-        let (_, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
-        outcome.step_errors
+            steps * step_ns * 1e-6
+        )
     }
 
     /// Filaments between walls: contacts have no random stress, so that long steps leave them cold.
@@ -221,5 +231,70 @@ mod tests {
             "{long:?}"
         );
         assert_eq!(errors(4e3, ""), []);
+    }
+
+    /// Mean force of a wall on each filament, over all records and two walls.
+    struct Pressure<'a> {
+        assembly: &'a Assembly,
+        forces: Vec<f64>,
+    }
+
+    impl Sink for Pressure<'_> {
+        fn record(&mut self, record: &Record) {
+            let mut loads = Loads::zeros(&record.state);
+            let walls = self.assembly.system.interactions().iter();
+            for wall in walls.filter(|one| one.term() == "repulsion") {
+                wall.add_loads(&record.state, &mut loads);
+            }
+            let forces = loads.force.x.iter().map(|force| force.abs());
+            self.forces
+                .push(forces.sum::<f64>() / (2 * FILAMENTS) as f64);
+        }
+    }
+
+    /// Mean force of a wall on free filaments of 200 nm between walls, relative to the exact force of rigid filaments
+    /// in short steps, and its standard error. The exact force is `kT / (w - L/2)` for filaments of the length `L`
+    /// between walls at a distance `w` from which axes are reflected.
+    fn pressure(steps: f64, step_ns: f64) -> (f64, f64) {
+        let walls = "repulsion: Repulsion(filaments: false, planes: [
+            Plane(at_nm: (-150.0, 0.0, 0.0), normal: (1.0, 0.0, 0.0)),
+            Plane(at_nm: (150.0, 0.0, 0.0), normal: (-1.0, 0.0, 0.0)),
+        ]),";
+        let scene = Scene::from_ron(&scene(steps, step_ns, walls)).unwrap();
+        let assembly = Assembly::build(&scene).unwrap();
+        let mut pressure = Pressure {
+            assembly: &assembly,
+            forces: Vec::new(),
+        };
+        Plan::new(&assembly)
+            .unwrap()
+            .run_into(&mut pressure)
+            .unwrap();
+        let exact = 298.0 * BOLTZMANN_PN_NM_PER_K / (300.0 - 2.0 * 3.7 - 100.0);
+        let size = pressure.forces.len() / BLOCKS;
+        let blocks = pressure.forces.chunks_exact(size);
+        let ratio = |block: &[f64]| block.iter().sum::<f64>() / (size as f64 * exact);
+        let ratios: Vec<f64> = blocks.map(ratio).collect();
+        let mean = ratios.iter().sum::<f64>() / BLOCKS as f64;
+        let squares = ratios.iter().map(|ratio| (ratio - mean).powi(2));
+        let variance = squares.sum::<f64>() / (BLOCKS * (BLOCKS - 1)) as f64;
+        (mean, variance.sqrt())
+    }
+
+    /// Forces that have not converged would be too large.
+    #[test]
+    fn long_steps_do_not_raise_the_force_of_walls() {
+        let (mean, error) = pressure(2e3, 1e4);
+        assert!(mean < 1.0 + 3.0 * error && mean > 0.5, "{mean} +- {error}");
+    }
+
+    #[test]
+    #[ignore = "takes minutes"]
+    fn the_force_of_walls_depends_on_the_step() {
+        for (step_ns, steps) in [(100.0, 60_000.0), (1e3, 20_000.0), (1e4, 10_000.0)] {
+            let (mean, error) = pressure(steps, step_ns);
+            println!("{step_ns} ns: {mean:.3} +- {error:.3} of the exact force");
+            assert!((mean - 1.0).abs() < 3.0 * error + 0.25 * (step_ns * 1e-4).sqrt());
+        }
     }
 }
