@@ -4,16 +4,13 @@ use actin_equilibrium::{ComponentStep, StepSize};
 /// Largest accepted energy error of a component (kT).
 const ENOUGH: f64 = 1e-2;
 
-/// As [`ENOUGH`], for components in contact. Forces of contacts then have errors of a few per cent: a depth `p` with
-/// the force `F ~ p^4` and the energy `F p / 5`, of a tenth of kT in long steps, changes the energy by
-/// `2 F p (dp/p)^2`.
+/// As [`ENOUGH`], for components in contact in [`POLISHING`] iterations more. Forces of contacts then have errors of a
+/// few per cent: a depth `p` with the force `F ~ p^4` and the energy `F p / 5`, of a tenth of kT in long steps, changes
+/// the energy by `2 F p (dp/p)^2`.
 const ENOUGH_IN_CONTACT: f64 = 1e-5;
 
-/// Changes of energy, one per component (in units of kT), below which components count as solved.
-pub(crate) fn tolerances(in_contact: &[bool]) -> Vec<f64> {
-    let of = |touches: &bool| if *touches { ENOUGH_IN_CONTACT } else { ENOUGH };
-    in_contact.iter().map(of).collect()
-}
+/// Largest number of iterations after all components have reached [`ENOUGH`].
+const POLISHING: usize = 3;
 
 /// Number of initial iterations that may grow without added friction.
 const FREE_ITERATIONS: usize = 2;
@@ -37,6 +34,8 @@ const FARTHEST: f64 = 3.0;
 pub(crate) struct Progress {
     components: Vec<Component>,
     iterations: usize,
+    /// Iterations after which all components had reached [`ENOUGH`].
+    near: usize,
     /// Largest displacement of the first iteration (nm).
     first: Option<f64>,
 }
@@ -49,6 +48,8 @@ struct Component {
     /// `true` if the last two iterations had equal friction.
     is_even: bool,
     is_solved: bool,
+    /// `true` if the last iteration had reached [`ENOUGH`].
+    is_near: bool,
 }
 
 impl Progress {
@@ -57,6 +58,27 @@ impl Progress {
         self.components.clear();
         self.components.resize(components, Component::default());
         self.iterations = 0;
+        self.near = 0;
+    }
+
+    /// Returns `true` if components in contact are still solved more precisely.
+    pub(crate) fn is_polishing(&self) -> bool {
+        self.near <= POLISHING
+    }
+
+    /// Changes of energy (pN nm), one per component, below which components count as solved.
+    pub(crate) fn tolerances(&self, in_contact: &[bool], thermal_energy: f64) -> Vec<f64> {
+        let of = |touches: &bool| {
+            if *touches && self.is_polishing() {
+                ENOUGH_IN_CONTACT
+            } else {
+                ENOUGH
+            }
+        };
+        in_contact
+            .iter()
+            .map(|touches| of(touches) * thermal_energy)
+            .collect()
     }
 
     pub(crate) fn iterations(&self) -> usize {
@@ -120,7 +142,7 @@ impl Progress {
         steps: &[ComponentStep],
         is_selected: impl Fn(usize) -> bool,
         limits: &StepLimits,
-        tolerances: &[f64],
+        (tolerances, thermal_energy): (&[f64], f64),
     ) -> bool {
         let is_first = self.is_first();
         let components = self.components.iter_mut().zip(steps).enumerate();
@@ -128,7 +150,8 @@ impl Progress {
             if is_first {
                 component.begin(step, limits);
             } else {
-                component.record(step, self.iterations, limits, tolerances[c]);
+                let enough = [tolerances[c], ENOUGH * thermal_energy];
+                component.record(step, self.iterations, limits, enough);
             }
         }
         let largest = self.largest().displacement;
@@ -136,6 +159,8 @@ impl Progress {
             self.first = Some(largest);
         }
         self.iterations += 1;
+        let is_near = self.components.iter().all(|component| component.is_near);
+        self.near += usize::from(is_near);
         self.components.iter().all(|component| component.is_solved)
     }
 }
@@ -145,6 +170,7 @@ impl Component {
         self.last = *step;
         self.is_even = true;
         self.is_solved = limits.hold(&step.size);
+        self.is_near = self.is_solved;
     }
 
     fn record(
@@ -152,7 +178,7 @@ impl Component {
         step: &ComponentStep,
         iterations: usize,
         limits: &StepLimits,
-        enough: f64,
+        [enough, near]: [f64; 2],
     ) {
         // Ratios of iterations with different friction do not measure convergence.
         let ratio = if self.is_even {
@@ -162,7 +188,7 @@ impl Component {
         };
         let before = self.damping;
         let energy = ratio * (1.0 + before) * step.decrease.abs();
-        let has_grown = energy > enough && step.decrease.abs() > GROWTH * self.last.decrease.abs();
+        let has_grown = energy > near && step.decrease.abs() > GROWTH * self.last.decrease.abs();
         if self.is_even && iterations >= FREE_ITERATIONS && has_grown {
             self.damping = (DAMPING * before).clamp(LEAST_DAMPING, MOST_DAMPING);
         } else if self.is_even {
@@ -183,5 +209,6 @@ impl Component {
             strain: 0.0,
         };
         self.is_solved = limits.hold(&rest) || energy <= enough;
+        self.is_near = self.is_solved || energy <= near;
     }
 }

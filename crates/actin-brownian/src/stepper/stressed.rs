@@ -2,7 +2,7 @@
 
 use super::{Brownian, LARGEST_TURN, spin};
 use crate::components::{Components, Subset};
-use crate::progress::{self, Progress};
+use crate::progress::Progress;
 use crate::stress::StepMatrix;
 use actin_equilibrium::{ComponentStep, StepSize};
 use actin_integrate::StepFailure;
@@ -44,9 +44,9 @@ impl Brownian {
             let components = &self.components;
             let is_selected = |c| components.has_component(c);
             let limits = &self.limits;
-            is_solved = self
-                .progress
-                .record(&steps, is_selected, limits, &tolerances);
+            let enough = (&tolerances[..], self.thermal_energy);
+            let progress = &mut self.progress;
+            is_solved = progress.record(&steps, is_selected, limits, enough);
             is_solved = is_solved && is_found && self.is_balanced(system, h);
             if is_solved {
                 break;
@@ -78,11 +78,13 @@ impl Brownian {
     /// Change of energy (pN nm) below which each component counts as solved.
     fn tolerances(&mut self, system: &System) -> Vec<f64> {
         let (state, interactions) = (system.state(), system.interactions());
-        let in_contact = self
-            .components
-            .in_contact(interactions, state, &mut self.loads);
-        let in_kt = progress::tolerances(&in_contact).into_iter();
-        in_kt.map(|enough| enough * self.thermal_energy).collect()
+        let in_contact = if self.progress.is_polishing() {
+            let loads = &mut self.loads;
+            self.components.in_contact(interactions, state, loads)
+        } else {
+            vec![false; self.components.count()]
+        };
+        self.progress.tolerances(&in_contact, self.thermal_energy)
     }
 
     /// Moves the bodies by the step of an iteration. Bodies that repel each other meet, but do not
