@@ -12,6 +12,15 @@ const ENOUGH_IN_CONTACT: f64 = 1e-5;
 /// Largest number of iterations after all components have reached [`ENOUGH`].
 const POLISHING: usize = 3;
 
+/// Changes of energy (pN nm), one per component, below which components count as solved.
+pub(crate) fn tolerances(in_contact: &[bool], thermal_energy: f64) -> Vec<f64> {
+    let of = |touches: &bool| if *touches { ENOUGH_IN_CONTACT } else { ENOUGH };
+    in_contact
+        .iter()
+        .map(|touches| of(touches) * thermal_energy)
+        .collect()
+}
+
 /// Number of initial iterations that may grow without added friction.
 const FREE_ITERATIONS: usize = 2;
 
@@ -64,21 +73,6 @@ impl Progress {
     /// Returns `true` if components in contact are still solved more precisely.
     pub(crate) fn is_polishing(&self) -> bool {
         self.near <= POLISHING
-    }
-
-    /// Changes of energy (pN nm), one per component, below which components count as solved.
-    pub(crate) fn tolerances(&self, in_contact: &[bool], thermal_energy: f64) -> Vec<f64> {
-        let of = |touches: &bool| {
-            if *touches && self.is_polishing() {
-                ENOUGH_IN_CONTACT
-            } else {
-                ENOUGH
-            }
-        };
-        in_contact
-            .iter()
-            .map(|touches| of(touches) * thermal_energy)
-            .collect()
     }
 
     pub(crate) fn iterations(&self) -> usize {

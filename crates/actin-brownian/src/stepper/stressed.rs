@@ -2,7 +2,7 @@
 
 use super::{Brownian, LARGEST_TURN, spin};
 use crate::components::{Components, Subset};
-use crate::progress::Progress;
+use crate::progress::{self, Progress};
 use crate::stress::StepMatrix;
 use actin_equilibrium::{ComponentStep, StepSize};
 use actin_integrate::StepFailure;
@@ -84,7 +84,7 @@ impl Brownian {
         } else {
             vec![false; self.components.count()]
         };
-        self.progress.tolerances(&in_contact, self.thermal_energy)
+        progress::tolerances(&in_contact, self.thermal_energy)
     }
 
     /// Moves the bodies by the step of an iteration. Bodies that repel each other meet, but do not

@@ -70,8 +70,10 @@ mod effect {
         f64::INFINITY
     }
 
-    // `skip_serializing_if` requires this signature.
-    #[allow(clippy::trivially_copy_pass_by_ref)]
+    #[expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "`skip_serializing_if` requires this signature"
+    )]
     pub(super) fn is_none(scale: &f64) -> bool {
         scale.is_infinite()
     }
