@@ -12,6 +12,7 @@ mod invariants;
 mod joined;
 mod kinetics;
 mod laws;
+mod linkers_in_heat;
 mod modes;
 mod observed;
 mod order;

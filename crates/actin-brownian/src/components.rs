@@ -1,6 +1,6 @@
 use crate::Friction;
 use actin_equilibrium::{ImplicitSolver, Selection};
-use actin_mechanics::{Coordinates, Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
+use actin_mechanics::{Coordinates, Interaction, SecondOrder, State, Stiffness};
 
 /// Components of coupled bodies, such as rods, and those selected for an iteration.
 #[derive(Debug)]
@@ -114,31 +114,6 @@ impl Components {
     /// Returns `true` if the components belong to the present pattern of the matrix.
     pub(crate) fn fit(&self, solver: &ImplicitSolver) -> bool {
         self.pattern == solver.patterns()
-    }
-
-    /// Components on which interactions that couple by distance exert forces at `state`.
-    pub(crate) fn in_contact(
-        &self,
-        interactions: &[Box<dyn Interaction>],
-        state: &State,
-        loads: &mut Loads,
-    ) -> Vec<bool> {
-        let mut in_contact = vec![false; self.count()];
-        let contacts = interactions.iter().zip(&self.are_everywhere);
-        let contacts: Vec<_> = contacts.filter(|(_, is)| **is).collect();
-        if contacts.is_empty() {
-            return in_contact;
-        }
-        loads.clear();
-        for (contact, _) in contacts {
-            contact.add_loads(state, loads);
-        }
-        for (i, c) in self.of_points.iter().enumerate() {
-            if let Some(c) = *c {
-                in_contact[c] |= loads.force.get(i) != Vector3::zeros();
-            }
-        }
-        in_contact
     }
 
     /// Selects components for the next iteration; others are held.

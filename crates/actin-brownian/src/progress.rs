@@ -1,25 +1,13 @@
 use crate::StepLimits;
 use actin_equilibrium::{ComponentStep, StepSize};
 
-/// Largest accepted energy error of a component (kT).
-const ENOUGH: f64 = 1e-2;
+/// Largest accepted energy error of a component (kT). The energy of a mode with `kT/2` then has an error of at most
+/// `2 sqrt(ENOUGH / 2)`, 1.4 % of `kT`: iterations approach a linker that is stiff compared with the friction from one
+/// side. The force of a contact has an error of about a per cent.
+const ENOUGH: f64 = 1e-4;
 
-/// As [`ENOUGH`], for components in contact in [`POLISHING`] iterations more. Forces of contacts then have errors of a
-/// few per cent: a depth `p` with the force `F ~ p^4` and the energy `F p / 5`, of a tenth of kT in long steps, changes
-/// the energy by `2 F p (dp/p)^2`.
-const ENOUGH_IN_CONTACT: f64 = 1e-5;
-
-/// Largest number of iterations after all components have reached [`ENOUGH`].
-const POLISHING: usize = 3;
-
-/// Changes of energy (pN nm), one per component, below which components count as solved.
-pub(crate) fn tolerances(in_contact: &[bool], thermal_energy: f64) -> Vec<f64> {
-    let of = |touches: &bool| if *touches { ENOUGH_IN_CONTACT } else { ENOUGH };
-    in_contact
-        .iter()
-        .map(|touches| of(touches) * thermal_energy)
-        .collect()
-}
+/// Predicted changes of energy (kT) below which iterations do not count as growing.
+const CALM: f64 = 1e-2;
 
 /// Number of initial iterations that may grow without added friction.
 const FREE_ITERATIONS: usize = 2;
@@ -43,8 +31,6 @@ const FARTHEST: f64 = 3.0;
 pub(crate) struct Progress {
     components: Vec<Component>,
     iterations: usize,
-    /// Iterations after which all components had reached [`ENOUGH`].
-    near: usize,
     /// Largest displacement of the first iteration (nm).
     first: Option<f64>,
 }
@@ -57,8 +43,6 @@ struct Component {
     /// `true` if the last two iterations had equal friction.
     is_even: bool,
     is_solved: bool,
-    /// `true` if the last iteration had reached [`ENOUGH`].
-    is_near: bool,
 }
 
 impl Progress {
@@ -67,12 +51,6 @@ impl Progress {
         self.components.clear();
         self.components.resize(components, Component::default());
         self.iterations = 0;
-        self.near = 0;
-    }
-
-    /// Returns `true` if components in contact are still solved more precisely.
-    pub(crate) fn is_polishing(&self) -> bool {
-        self.near <= POLISHING
     }
 
     pub(crate) fn iterations(&self) -> usize {
@@ -118,34 +96,32 @@ impl Progress {
         })
     }
 
-    /// Reopens solved components whose loads allow a further decrease of energy of more than a
-    /// tolerance (pN nm, one per component). Returns `true` if there are none.
-    pub(crate) fn reopen(&mut self, decreases: &[f64], tolerances: &[f64]) -> bool {
-        let decreases = decreases.iter().zip(tolerances);
-        for (component, (decrease, enough)) in self.components.iter_mut().zip(decreases) {
+    /// Reopens solved components whose loads allow a further decrease of energy (pN nm) of more than the
+    /// tolerance. Returns `true` if there are none.
+    pub(crate) fn reopen(&mut self, decreases: &[f64], thermal_energy: f64) -> bool {
+        for (component, decrease) in self.components.iter_mut().zip(decreases) {
             // Also for NaN.
-            component.is_solved &= decrease.abs() <= *enough;
+            component.is_solved &= decrease.abs() <= ENOUGH * thermal_energy;
         }
         self.components.iter().all(|component| component.is_solved)
     }
 
     /// Records an iteration. Returns `true` if the predicted next step of each component is within
-    /// the limits, or changes the energy by less than its tolerance (pN nm).
+    /// the limits, or changes the energy by less than the tolerance.
     pub(crate) fn record(
         &mut self,
         steps: &[ComponentStep],
         is_selected: impl Fn(usize) -> bool,
         limits: &StepLimits,
-        (tolerances, thermal_energy): (&[f64], f64),
+        thermal_energy: f64,
     ) -> bool {
         let is_first = self.is_first();
         let components = self.components.iter_mut().zip(steps).enumerate();
-        for (c, (component, step)) in components.filter(|(c, _)| is_selected(*c)) {
+        for (_, (component, step)) in components.filter(|(c, _)| is_selected(*c)) {
             if is_first {
                 component.begin(step, limits);
             } else {
-                let enough = [tolerances[c], ENOUGH * thermal_energy];
-                component.record(step, self.iterations, limits, enough);
+                component.record(step, self.iterations, limits, thermal_energy);
             }
         }
         let largest = self.largest().displacement;
@@ -153,8 +129,6 @@ impl Progress {
             self.first = Some(largest);
         }
         self.iterations += 1;
-        let is_near = self.components.iter().all(|component| component.is_near);
-        self.near += usize::from(is_near);
         self.components.iter().all(|component| component.is_solved)
     }
 }
@@ -164,7 +138,6 @@ impl Component {
         self.last = *step;
         self.is_even = true;
         self.is_solved = limits.hold(&step.size);
-        self.is_near = self.is_solved;
     }
 
     fn record(
@@ -172,7 +145,7 @@ impl Component {
         step: &ComponentStep,
         iterations: usize,
         limits: &StepLimits,
-        [enough, near]: [f64; 2],
+        thermal_energy: f64,
     ) {
         // Ratios of iterations with different friction do not measure convergence.
         let ratio = if self.is_even {
@@ -182,7 +155,8 @@ impl Component {
         };
         let before = self.damping;
         let energy = ratio * (1.0 + before) * step.decrease.abs();
-        let has_grown = energy > near && step.decrease.abs() > GROWTH * self.last.decrease.abs();
+        let is_calm = energy <= CALM * thermal_energy;
+        let has_grown = !is_calm && step.decrease.abs() > GROWTH * self.last.decrease.abs();
         if self.is_even && iterations >= FREE_ITERATIONS && has_grown {
             self.damping = (DAMPING * before).clamp(LEAST_DAMPING, MOST_DAMPING);
         } else if self.is_even {
@@ -202,7 +176,6 @@ impl Component {
             rotation: length * step.size.rotation,
             strain: 0.0,
         };
-        self.is_solved = limits.hold(&rest) || energy <= enough;
-        self.is_near = self.is_solved || energy <= near;
+        self.is_solved = limits.hold(&rest) || energy <= ENOUGH * thermal_energy;
     }
 }

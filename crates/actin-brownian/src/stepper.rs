@@ -41,8 +41,7 @@
 //! iteration omits the geometric stiffness, and later ones omit it in components, such as
 //! rods, whose matrix is not positive definite. Friction is added to a component if its
 //! iterations grow. A component counts as solved if its next iteration is predicted to change the
-//! energy by less than a hundredth of kT. Up to three more iterations reduce this to 1e-5 kT for
-//! components in contact. If at most half of the components are unsolved, only
+//! energy by less than 1e-4 kT. If at most half of the components are unsolved, only
 //! these are iterated and the others are held. A step ends with an iteration of all components.
 //!
 //! With springs between components that are stiff compared with `Z/h`, the equations may have further solutions far

@@ -64,6 +64,9 @@ pub enum LinkerError {
     /// Invalid rod.
     #[error(transparent)]
     Rod(#[from] RodError),
+    /// A linker with angular stiffness does not connect two frames.
+    #[error("stiffness against tilt and twist needs sites of two different monomers or segments")]
+    Angles,
     /// The segment does not exist.
     #[error("segment {segment} does not exist: the rod has {segments} segments, counted from 0")]
     Segment {
@@ -91,6 +94,12 @@ pub enum LinkerKey {
     RestLength,
     /// Position of an anchor.
     Anchor,
+    /// Stiffness against tilt.
+    Tilt,
+    /// Stiffness against twist.
+    Twist,
+    /// Length as built.
+    Length,
 }
 
 impl fmt::Display for LinkerKey {
@@ -103,6 +112,9 @@ impl fmt::Display for LinkerKey {
             Self::Stiffness => "stiffness",
             Self::RestLength => "rest_length",
             Self::Anchor => "anchor",
+            Self::Tilt => "tilt",
+            Self::Twist => "twist",
+            Self::Length => "length",
         })
     }
 }

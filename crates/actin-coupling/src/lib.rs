@@ -5,7 +5,7 @@
 //! inertia. [`push_junction_frames`] adds these frames to the state, between the frames of the two
 //! sections. [`Junction::new`] creates the interaction when all bodies are in the state.
 //!
-//! A [`Linker`] is a spring from a [`Site`] of a filament to an [`Anchor`] or another site. A
+//! A [`Linker`] is a spring from a [`Site`] of a filament to an [`Anchor`] or another site. [`LinkerAngles`] resist its tilt and twist. A
 //! [`SwitchedLinker`] can be released and bound at several places. A [`SiteForce`] applies a force
 //! at sites. [`repulsion`] contains the contacts between filaments and with walls.
 //!
@@ -21,6 +21,7 @@ mod build;
 mod error;
 mod junction;
 mod linker;
+mod linker_angles;
 mod periodic;
 mod random_stress;
 pub mod repulsion;
@@ -32,6 +33,7 @@ pub use build::push_junction_frames;
 pub use error::{JunctionError, LinkerError, LinkerKey};
 pub use junction::{AttachedMonomer, Junction, JunctionParts, JunctionSide, JunctionWeight};
 pub use linker::{Anchor, Linker, LinkerEnd};
+pub use linker_angles::LinkerAngles;
 pub use periodic::{PeriodicCell, PeriodicImage};
 pub use site::{RodPlace, Site};
 pub use site_force::{ForceKind, SiteForce};
@@ -46,4 +48,5 @@ pub use actin_cosserat::{
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
     Frame, Inertia, InertiaError, Interaction, Loads, Point, State, UnitQuaternion, Vector3,
+    rotation,
 };

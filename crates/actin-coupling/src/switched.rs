@@ -188,7 +188,7 @@ impl Interaction for SwitchedLinker {
 
 impl RandomStress for SwitchedLinker {
     fn components(&self) -> usize {
-        3
+        4
     }
 
     fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]) {
@@ -210,9 +210,13 @@ impl RandomStress for SwitchedLinker {
     }
 
     fn record(&self, stresses: &[f64], state: &mut State) {
-        let is_bound = self.is_bound(state);
-        for (control, stress) in self.random.into_iter().zip(stresses) {
-            state.controls[control] = if is_bound { *stress } else { 0.0 };
+        let random = if self.is_bound(state) {
+            self.linker(state).random_force(state, stresses)
+        } else {
+            Vector3::zeros()
+        };
+        for (control, force) in self.random.into_iter().zip(&random) {
+            state.controls[control] = *force;
         }
     }
 

@@ -96,6 +96,8 @@ impl Crosslinkers {
             displaced_nm: None,
             stiffness_pn_per_nm: self.stiffness_pn_per_nm,
             rest_length_nm: self.rest_length_nm,
+            tilt_pn_nm: 0.0,
+            twist_pn_nm: 0.0,
             kinetics: Some(self.kinetics()),
         }
     }

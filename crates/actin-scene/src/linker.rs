@@ -41,6 +41,15 @@ pub struct Linker {
     /// Rest length; at least 0.
     #[serde(default)]
     pub rest_length_nm: f64,
+    /// Stiffness `k` against tilt at both ends: the energy of each end is `k (1 - cos a)` for the angle `a` between the
+    /// linker and its direction as built, which follows the monomer or segment; at least 0. Requires `to`, no
+    /// `kinetics`, and two sites apart in different monomers or segments.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub tilt_pn_nm: f64,
+    /// Stiffness `k` against twist: the energy is `k (1 - cos b)` for the change `b` of the angle between the two
+    /// filaments, seen along the linker as built; at least 0. Requires the same as `tilt_pn_nm`.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub twist_pn_nm: f64,
     /// Rates of breaking, forming and stepping; by default the linker is permanent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinetics: Option<Kinetics>,
@@ -64,6 +73,14 @@ pub struct LinkerSite {
     pub azimuth_deg: f64,
 }
 
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "the signature that serde requires"
+)]
+fn is_zero(value: &f64) -> bool {
+    value.abs() <= 0.0
+}
+
 fn is_origin(image: &[i32; 3]) -> bool {
     *image == [0; 3]
 }
@@ -77,6 +94,14 @@ impl Linker {
             radius_nm: self.radius_nm,
             azimuth_deg: self.azimuth_deg,
         }
+    }
+
+    /// Returns the stiffness against tilt and twist (pN nm), with the keys.
+    pub fn angular(&self) -> [(&'static str, f64); 2] {
+        [
+            ("tilt_pn_nm", self.tilt_pn_nm),
+            ("twist_pn_nm", self.twist_pn_nm),
+        ]
     }
 
     /// Returns the key of the other end.
@@ -113,6 +138,13 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     positive(&key("stiffness_pn_per_nm"), linker.stiffness_pn_per_nm)?;
     non_negative(&key("rest_length_nm"), linker.rest_length_nm)?;
     check_one_end(i, linker)?;
+    for (name, stiffness) in linker.angular() {
+        non_negative(&key(name), stiffness)?;
+        if stiffness > 0.0 && (linker.to.is_none() || linker.kinetics.is_some()) {
+            let rule = "requires a linker between two sites (`to`) without `kinetics`";
+            return Err(SceneProblem::new(key(name), show(stiffness), rule));
+        }
+    }
     if let Some(other) = &linker.to {
         check_site(scene, &key("to"), other)?;
         if other.is_at(&linker.site()) && linker.image == [0; 3] {

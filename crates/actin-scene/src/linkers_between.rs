@@ -43,6 +43,12 @@ pub(crate) struct LinkersBetween {
     /// force.
     #[serde(default)]
     pub rest_length_nm: Option<f64>,
+    /// Stiffness of each linker against tilt, see `Linker`; at least 0.
+    #[serde(default)]
+    pub tilt_pn_nm: f64,
+    /// Stiffness of each linker against twist, see `Linker`; at least 0.
+    #[serde(default)]
+    pub twist_pn_nm: f64,
     /// Rates of breaking, forming and stepping; by default linkers are permanent.
     #[serde(default)]
     pub kinetics: Option<Kinetics>,
@@ -118,6 +124,16 @@ impl LinkersBetween {
         check_reach(&key("reach_nm"), self.reach_nm, periodic)?;
         positive(&key("site_spacing_nm"), self.site_spacing_nm)?;
         positive(&key("stiffness_pn_per_nm"), self.stiffness_pn_per_nm)?;
+        for (name, stiffness) in [
+            ("tilt_pn_nm", self.tilt_pn_nm),
+            ("twist_pn_nm", self.twist_pn_nm),
+        ] {
+            non_negative(&key(name), stiffness)?;
+            if stiffness > 0.0 && self.kinetics.is_some() {
+                let rule = "requires linkers without `kinetics`";
+                return Err(SceneProblem::new(key(name), stiffness, rule));
+            }
+        }
         if let Some(length) = self.rest_length_nm {
             non_negative(&key("rest_length_nm"), length)?;
         }
@@ -252,6 +268,8 @@ impl LinkersBetween {
             displaced_nm: None,
             stiffness_pn_per_nm: self.stiffness_pn_per_nm,
             rest_length_nm: self.rest_length_nm.unwrap_or(pair.distance),
+            tilt_pn_nm: self.tilt_pn_nm,
+            twist_pn_nm: self.twist_pn_nm,
             kinetics: self.kinetics,
         }
     }
@@ -324,6 +342,8 @@ mod tests {
             stiffness_pn_per_nm: 1.0,
             rest_length_nm: None,
             radius_nm: 4.0,
+            tilt_pn_nm: 0.0,
+            twist_pn_nm: 0.0,
             kinetics: None,
             seed: 1,
         };

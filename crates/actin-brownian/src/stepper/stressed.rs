@@ -2,7 +2,7 @@
 
 use super::{Brownian, LARGEST_TURN, spin};
 use crate::components::{Components, Subset};
-use crate::progress::{self, Progress};
+use crate::progress::Progress;
 use crate::stress::StepMatrix;
 use actin_equilibrium::{ComponentStep, StepSize};
 use actin_integrate::StepFailure;
@@ -40,13 +40,11 @@ impl Brownian {
             }
             let limits = self.progress.limits(LARGEST_TURN);
             let steps = self.advance(system, &limits);
-            let tolerances = self.tolerances(system);
             let components = &self.components;
             let is_selected = |c| components.has_component(c);
             let limits = &self.limits;
-            let enough = (&tolerances[..], self.thermal_energy);
             let progress = &mut self.progress;
-            is_solved = progress.record(&steps, is_selected, limits, enough);
+            is_solved = progress.record(&steps, is_selected, limits, self.thermal_energy);
             is_solved = is_solved && is_found && self.is_balanced(system, h);
             if is_solved {
                 break;
@@ -71,20 +69,7 @@ impl Brownian {
         self.find_residual(system, h);
         let state = system.state();
         let decreases = self.solver.predicted_decreases(state, &self.residual);
-        let tolerances = self.tolerances(system);
-        self.progress.reopen(&decreases, &tolerances)
-    }
-
-    /// Change of energy (pN nm) below which each component counts as solved.
-    fn tolerances(&mut self, system: &System) -> Vec<f64> {
-        let (state, interactions) = (system.state(), system.interactions());
-        let in_contact = if self.progress.is_polishing() {
-            let loads = &mut self.loads;
-            self.components.in_contact(interactions, state, loads)
-        } else {
-            vec![false; self.components.count()]
-        };
-        progress::tolerances(&in_contact, self.thermal_energy)
+        self.progress.reopen(&decreases, self.thermal_energy)
     }
 
     /// Moves the bodies by the step of an iteration. Bodies that repel each other meet, but do not

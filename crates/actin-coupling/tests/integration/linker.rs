@@ -1,6 +1,7 @@
 use actin_cosserat::{RodLayout, StraightRod};
 use actin_coupling::{
-    Anchor, Linker, LinkerEnd, LinkerError, LinkerKey, PeriodicCell, PeriodicImage, RodPlace, Site,
+    Anchor, Linker, LinkerAngles, LinkerEnd, LinkerError, LinkerKey, PeriodicCell, PeriodicImage,
+    RodPlace, Site,
 };
 use actin_mechanics::testing::{
     assert_fluctuates, assert_is_balanced, assert_is_gradient, assert_is_invariant,
@@ -166,6 +167,34 @@ fn a_linker_within_a_rigid_body_does_nothing() {
     assert!(linker.force(&scene.state).norm() > 1.0);
     assert!(force.norm() < 1e-12 && torque.norm() < 1e-12);
     assert!(stiffness.amax() < 1e-12, "{}", stiffness.amax());
+}
+
+/// Angles of linkers between sites of different frames, at states far from the reference.
+fn angles(scene: &mut Scene, noise: &mut Xorshift) -> Vec<LinkerAngles> {
+    let built = all(scene, 2.5).into_iter().filter_map(|linker| {
+        let angles = LinkerAngles::new(&linker, (60.0, 25.0), &scene.state);
+        angles.ok()
+    });
+    let built: Vec<_> = built.collect();
+    assert!(built.len() >= 2, "{}", built.len());
+    perturb(&mut scene.state, noise, 0.5, 0.4);
+    built
+}
+
+#[test]
+fn angles_of_linkers_have_consistent_derivatives() {
+    let mut noise = Xorshift::new(16);
+    for _ in 0..4 {
+        let mut scene = scene(&mut noise);
+        for angles in angles(&mut scene, &mut noise) {
+            // h = 0.01 nm and rad, torques up to 60 pN nm.
+            assert_is_gradient(&angles, &scene.state, 0.01, 1e-8);
+            assert_is_stiffness(&angles, &scene.state, 0.01, 1e-8);
+            assert_fluctuates(&[&angles], &scene.state, 1e-12);
+            assert_is_balanced(&angles, &scene.state, 1e-12);
+            assert_is_invariant(&angles, &scene.state, 1e-11);
+        }
+    }
 }
 
 proptest! {

@@ -213,7 +213,7 @@ class Brownian(Part):
     interval between records.
 
     Default for rods at a temperature: the bending relaxation time of a segment, 180 ns for 40 nm. Means are
-    accurate to 1 %. Stages, loads, rates, shear or records can require shorter steps. Default for monomers
+    accurate to 1 %, energies of stiff linkers to 5 %. Stages, loads, rates, shear or records can require shorter steps. Default for monomers
     with `QuasiHarmonic` interfaces: the step of segments of a fifth of the filament's length, at most 40
     nm. Default for other monomers at a temperature and with `repulsion`: 50 times the fastest relaxation
     time. Strains then have their thermal energy to 1 % on segments of 20 nm or more. Default at temperature
@@ -952,7 +952,12 @@ class Linker(Part):
     - `radius_nm`: Distance of the site from the axis; at least 0. Default: 0.0.
     - `rest_length_nm`: Rest length; at least 0. Default: 0.0.
     - `stiffness_pn_per_nm`: Stiffness; positive.
+    - `tilt_pn_nm`: Stiffness `k` against tilt at both ends: the energy of each end is `k (1 - cos a)` for the angle `a` between the
+    linker and its direction as built, which follows the monomer or segment; at least 0. Requires `to`, no
+    `kinetics`, and two sites apart in different monomers or segments.
     - `to`: Site at the other end; it must differ from this one.
+    - `twist_pn_nm`: Stiffness `k` against twist: the energy is `k (1 - cos b)` for the change `b` of the angle between the two
+    filaments, seen along the linker as built; at least 0. Requires the same as `tilt_pn_nm`.
     """
     def __init__(
         self,
@@ -967,7 +972,9 @@ class Linker(Part):
         kinetics: Kinetics | _Keys | None = ...,
         radius_nm: _Number = ...,
         rest_length_nm: _Number = ...,
+        tilt_pn_nm: _Number = ...,
         to: Site | _Keys | None = ...,
+        twist_pn_nm: _Number = ...,
     ) -> None: ...
 
 class LinkerForce(Part):
@@ -999,6 +1006,8 @@ class LinkersBetween(Part):
     - `site_spacing_nm`: Distance between neighbouring sites of a filament; positive. The first site is half this distance from the
     start. Default: 36.0.
     - `stiffness_pn_per_nm`: Stiffness; positive.
+    - `tilt_pn_nm`: Stiffness of each linker against tilt, see `Linker`; at least 0. Default: 0.0.
+    - `twist_pn_nm`: Stiffness of each linker against twist, see `Linker`; at least 0. Default: 0.0.
     """
     def __init__(
         self,
@@ -1012,6 +1021,8 @@ class LinkersBetween(Part):
         radius_nm: _Number = ...,
         rest_length_nm: _Number | None = ...,
         site_spacing_nm: _Number = ...,
+        tilt_pn_nm: _Number = ...,
+        twist_pn_nm: _Number = ...,
     ) -> None: ...
 
 class LoadFactor(Part):

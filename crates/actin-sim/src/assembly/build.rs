@@ -19,7 +19,7 @@ use crate::follow;
 use crate::observe::{EnergyNames, Observers};
 use crate::scene::{ClampedEnds, End, Filament, Load, Scene, SceneProblem, Section};
 use crate::trade;
-use actin_coupling::{Linker, PeriodicCell, Site};
+use actin_coupling::{Linker, LinkerAngles, PeriodicCell, Site};
 use actin_mechanics::{ControlId, Interaction, State, System};
 pub(crate) use sampled::InterfaceSampling;
 use sampled::Sampling;
@@ -125,6 +125,7 @@ struct Builder<'a> {
     loads: Vec<ControlId>,
     cell: Option<PeriodicCell>,
     linkers: Vec<Linker>,
+    angles: Vec<LinkerAngles>,
     beads: Vec<(Site, f64)>,
     kinetics: Option<Kinetics>,
     /// Tables of roaming linkers by the distance of sites and the direction of steps.
@@ -162,6 +163,7 @@ impl<'a> Builder<'a> {
             loads: Vec::new(),
             cell: None,
             linkers: Vec::new(),
+            angles: Vec::new(),
             beads: Vec::new(),
             kinetics: None,
             site_tables: HashMap::new(),
@@ -228,6 +230,7 @@ impl<'a> Builder<'a> {
             loads: self.loads,
             cell: self.cell,
             linkers: self.linkers,
+            angles: self.angles,
             beads: self.beads,
             kinetics: self.kinetics.map(Arc::new),
             energy_balance,

@@ -56,7 +56,7 @@ pub(crate) use unstable_twist::{TwistRecords, TwistWatch};
 use crate::observe::Observers;
 use crate::scene::{ClampedEnds, End, Monomers, Scene};
 use crate::trade::SectionChoice;
-use actin_coupling::{Linker, PeriodicCell, Site};
+use actin_coupling::{Linker, LinkerAngles, PeriodicCell, Site};
 use actin_mechanics::{ControlId, EnergyBalance, State, System, UnitQuaternion, Vector3};
 use nalgebra::Unit;
 use std::ops::Range;
@@ -88,6 +88,8 @@ pub struct Assembly {
     pub(crate) cell: Option<PeriodicCell>,
     /// Linkers in the order of the scene; stepping linkers at their first place.
     pub linkers: Vec<Linker>,
+    /// Stiffness of linkers against tilt and twist.
+    pub angles: Vec<LinkerAngles>,
     /// Centres of beads and their radii (nm), in the order of the scene.
     pub(crate) beads: Vec<(Site, f64)>,
     pub(crate) kinetics: Option<Arc<Kinetics>>,

@@ -4,7 +4,7 @@ use super::{Checked, Observe, StoredPositions, View};
 use crate::scene::{Factor, PeriodicBox, Scene, Setting};
 use crate::{Assembly, Estimate, Part};
 use actin_mechanics::{Loads, Matrix3, Vector3};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Components of symmetric tensors, in the order of their columns.
 const COMPONENTS: [(&str, usize, usize); 6] = [
@@ -20,10 +20,11 @@ const COMPONENTS: [(&str, usize, usize); 6] = [
 const XZ: usize = 4;
 
 /// Columns before those of the virial.
-const SCALARS: [&str; 10] = [
+const SCALARS: [&str; 11] = [
     "order_parameter",
     "polarity",
     "gyration_radius_nm",
+    "mesh_size_nm",
     "bound_linkers",
     "clusters",
     "largest_cluster",
@@ -146,12 +147,9 @@ impl Observe for Network {
     }
 
     fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
-        let Edges {
-            order,
-            mean,
-            gyration_radius_nm,
-        } = Edges::new(view);
-        row.extend([order, mean, gyration_radius_nm]);
+        let edges = Edges::new(view);
+        row.extend([edges.order, edges.mean, edges.gyration.trace().sqrt()]);
+        row.push(edges.mesh_size_nm(self.volume));
         let linkers = Linkers::new(view);
         row.extend([linkers.tensions.len() as f64]);
         let sizes = cluster_sizes(view.assembly.filaments.len(), &linkers.joined);
@@ -177,22 +175,26 @@ struct Edges {
     order: f64,
     /// Length of the mean tangent.
     mean: f64,
-    gyration_radius_nm: f64,
+    /// Total length (nm).
+    length: f64,
+    /// Mean square distances from the centre (nm^2).
+    gyration: Matrix3,
 }
 
 impl Edges {
     fn new(view: &View<'_>) -> Self {
         let (mut length, mut tangent, mut place) = (0.0, Vector3::zeros(), Vector3::zeros());
-        let (mut tensor, mut square) = (Matrix3::zeros(), 0.0);
+        let (mut tensor, mut squares) = (Matrix3::zeros(), Matrix3::zeros());
         for filament in 0..view.assembly.filaments.len() {
             for pair in view.ribbon(filament).points_nm.windows(2) {
                 let edge = pair[1] - pair[0];
                 let (weight, middle) = (edge.norm(), 0.5 * (pair[0] + pair[1]));
                 length += weight;
                 tangent += edge;
-                tensor += edge * edge.transpose() / weight.max(f64::MIN_POSITIVE);
+                let outer = edge * edge.transpose();
+                tensor += outer / weight.max(f64::MIN_POSITIVE);
                 place += weight * middle;
-                square += weight * (middle.norm_squared() + weight * weight / 12.0);
+                squares += weight * (middle * middle.transpose() + outer / 12.0);
             }
         }
         let order = 0.5 * (3.0 * tensor / length - Matrix3::identity());
@@ -200,8 +202,19 @@ impl Edges {
         Self {
             order: order.symmetric_eigenvalues().max(),
             mean: tangent.norm() / length,
-            gyration_radius_nm: (square / length - centre.norm_squared()).max(0.0).sqrt(),
+            length,
+            gyration: squares / length - centre * centre.transpose(),
         }
+    }
+
+    /// Distance `sqrt(3 V / L)` between filaments of the total length `L` in a volume `V` (nm^3), by default that of
+    /// the ellipsoid with this gyration tensor.
+    fn mesh_size_nm(&self, volume: Option<f64>) -> f64 {
+        let of_ellipsoid = || {
+            let product = self.gyration.determinant().max(0.0);
+            4.0 / 3.0 * PI * (125.0 * product).sqrt()
+        };
+        (3.0 * volume.unwrap_or_else(of_ellipsoid) / self.length).sqrt()
     }
 }
 
@@ -290,10 +303,14 @@ fn virial(view: &View<'_>) -> Matrix3 {
     let of_contacts =
         repelled.and_then(|one| Some(one.contacts.as_ref()?.periodic_virial(view.state)));
     let of_others = of_points + of_contacts.unwrap_or_else(Matrix3::zeros);
-    (0..view.assembly.linkers.len()).fold(of_others, |sum, i| {
+    let of_springs = (0..view.assembly.linkers.len()).fold(of_others, |sum, i| {
         let (linker, is_bound) = view.assembly.linker_in(i, view.state);
         let image = linker.periodic_displacement(view.state);
         sum + image * linker.force(view.state).transpose() * f64::from(u8::from(is_bound))
+    });
+    view.assembly.angles.iter().fold(of_springs, |sum, angles| {
+        let image = angles.linker().periodic_displacement(view.state);
+        sum + image * angles.force(view.state).transpose()
     })
 }
 
@@ -310,6 +327,7 @@ mod tests {
     use super::super::tests::{build, observe, value};
     use super::cluster_sizes;
     use crate::Assembly;
+    use std::f64::consts::PI;
 
     const BUNDLE: &str = "Scene(
         arrangements: [Bundle(
@@ -388,8 +406,13 @@ mod tests {
         // Sites at equal arc length are 12 nm apart, others further, up to the reach.
         assert!((column("linker_tension_smallest_pn") - 3.0).abs() < 1e-6);
         assert!(column("linker_tension_largest_pn") <= 12.0);
-        let radius = (300.0_f64.powi(2) / 12.0 + 6.0 / 7.0 * 144.0).sqrt();
+        let [along, across] = [300.0_f64.powi(2) / 12.0, 3.0 / 7.0 * 144.0];
+        let radius = (along + 2.0 * across).sqrt();
         assert!((column("gyration_radius_nm") - radius).abs() < 1e-6);
+        let volume = 4.0 / 3.0 * PI * (125.0 * along * across * across).sqrt();
+        // Cancellation in the gyration tensor: 1e-16 of 1e4 nm^2 relative to 60 nm^2.
+        let mesh = (volume / 700.0).sqrt();
+        assert!((column("mesh_size_nm") / mesh - 1.0).abs() < 1e-9);
     }
 
     /// The virial is the derivative of the energy with respect to a uniform strain of all points.
@@ -439,6 +462,13 @@ mod tests {
         let assembly = build(SHEARED);
         let mut linkers = assembly.linkers.iter();
         assert!(linkers.any(|linker| linker.image().is_some()));
+        check_shear_stress(&assembly);
+        let angular = SHEARED.replace(
+            "radius_nm: 4.0,",
+            "radius_nm: 4.0, tilt_pn_nm: 2000.0, twist_pn_nm: 1000.0,",
+        );
+        let assembly = build(&angular);
+        assert_eq!(assembly.angles.len(), 56);
         check_shear_stress(&assembly);
         let repelled = SHEARED
             .replace(

@@ -211,7 +211,7 @@ impl Estimate {
 }
 
 /// Returns for each filament whether other elements than one rod are joined to its frames off the axis:
-/// other sections, hinged walls or beads.
+/// other sections, hinged walls, beads or linkers with stiffness against tilt or twist.
 fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
     let sections = (0..assembly.filaments.len()).map(|filament| assembly.sections_of(filament));
     let mut held: Vec<bool> = sections
@@ -223,6 +223,13 @@ fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
     let beads = assembly.scene.beads.iter();
     for bead in beads.filter(|bead| bead.site.radius_nm > 0.0) {
         held[bead.site.filament] = true;
+    }
+    let linkers = assembly.scene.linkers.iter();
+    for linker in linkers.filter(|linker| linker.angular().iter().any(|(_, k)| *k > 0.0)) {
+        held[linker.filament] = true;
+        if let Some(other) = &linker.to {
+            held[other.filament] = true;
+        }
     }
     held
 }

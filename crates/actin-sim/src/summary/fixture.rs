@@ -46,6 +46,8 @@ pub(super) fn linked() -> Assembly {
         displaced_nm: Some([1.0, 0.5, -0.3]),
         stiffness_pn_per_nm: 3.0,
         rest_length_nm: 0.4,
+        tilt_pn_nm: 0.0,
+        twist_pn_nm: 0.0,
         kinetics: None,
     });
     Assembly::build(&scene).unwrap()
@@ -75,6 +77,8 @@ pub(super) fn pair() -> Assembly {
         displaced_nm: None,
         stiffness_pn_per_nm: 3.0,
         rest_length_nm: 0.4,
+        tilt_pn_nm: 0.0,
+        twist_pn_nm: 0.0,
         kinetics: None,
     });
     Assembly::build(&scene).unwrap()

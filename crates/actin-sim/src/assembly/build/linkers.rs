@@ -6,8 +6,8 @@ use crate::assembly::{Assembly, Kinetics, Part, SiteTable};
 use crate::scene::{self, LinkerSite, SceneProblem, path};
 use actin_cosserat::RodLayout;
 use actin_coupling::{
-    Anchor, Hand, Linker, LinkerEnd, LinkerError, PeriodicCell, PeriodicImage, RodPlace, Site,
-    SwitchedLinker,
+    Anchor, Hand, Linker, LinkerAngles, LinkerEnd, LinkerError, PeriodicCell, PeriodicImage,
+    RodPlace, Site, SwitchedLinker,
 };
 use actin_ellipsoid::Monomers;
 use actin_mechanics::{ControlId, Vector3};
@@ -32,13 +32,38 @@ impl Builder<'_> {
             let controls = has_anchor.then(|| [0.0; 3].map(|value| state.add_control(value)));
             let built = self.linker((i, linker), controls, &mut nodes)?;
             match linker.kinetics {
-                None => self
-                    .stock
-                    .push_term(Box::new(built.clone()), Part::Linker(i)),
+                None => {
+                    self.stock
+                        .push_term(Box::new(built.clone()), Part::Linker(i));
+                    self.push_angles((i, linker), &built)?;
+                }
                 Some(kinetics) => self.push_switched((i, linker), kinetics, &built, &mut nodes)?,
             }
             self.linkers.push(built);
         }
+        Ok(())
+    }
+
+    /// Pushes the stiffness of linker `i` against tilt and twist, if it has any.
+    fn push_angles(
+        &mut self,
+        (i, linker): (usize, &scene::Linker),
+        built: &Linker,
+    ) -> Result<(), SceneProblem> {
+        let [tilt, twist] = linker.angular();
+        let Some((name, _)) = [tilt, twist]
+            .into_iter()
+            .find(|(_, stiffness)| *stiffness > 0.0)
+        else {
+            return Ok(());
+        };
+        let angles = LinkerAngles::new(built, (tilt.1, twist.1), &self.stock.state);
+        let angles = angles.map_err(|error| {
+            SceneProblem::new(format!("linkers[{i}].{name}"), "", error.to_string())
+        })?;
+        self.stock
+            .push_term(Box::new(angles.clone()), Part::Linker(i));
+        self.angles.push(angles);
         Ok(())
     }
 
