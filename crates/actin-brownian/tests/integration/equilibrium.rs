@@ -86,7 +86,7 @@ fn rods_spin_by_more_than_half_a_turn_in_a_step() {
 fn steps_that_do_not_converge_are_halved() {
     let kt = 4.11;
     let (mut system, stepper, _) = free_rod(8, 160.0, (kt, 5), |_, _| Vec::new());
-    let most = 2;
+    let most = 3;
     let limits = StepLimits {
         iterations: most,
         ..StepLimits::default()
