@@ -2,7 +2,7 @@ use crate::StepLimits;
 use actin_equilibrium::{ComponentStep, StepSize};
 
 /// Largest accepted energy error of a component (kT). The energy of a mode with `kT/2` then has an error of at most
-/// `2 sqrt(ENOUGH / 2)`, 1.4 % of `kT`: iterations approach a linker that is stiff compared with the friction from one
+/// `2 sqrt(ENOUGH / 2)`, 1.4 % of `kT`: iterations approach a spring that is stiff compared with the friction from one
 /// side. The force of a contact has an error of about a per cent.
 const ENOUGH: f64 = 1e-4;
 

@@ -119,8 +119,10 @@ pub enum Observable {
     ///
     /// Of filaments, weighted by length: `network_order_parameter` (largest eigenvalue of `(3 <t t^T> - 1) / 2`
     /// with tangents `t`; 1 for parallel and antiparallel filaments), `network_polarity` (magnitude of the mean
-    /// tangent), `network_gyration_radius_nm`, `network_mesh_size_nm` (`sqrt(3 V / L)` for the total length `L` and
-    /// the volume `V` of the periodic box, or of the ellipsoid with the same gyration tensor).
+    /// tangent), `network_gyration_radius_nm`.
+    ///
+    /// `network_mesh_size_nm` is `sqrt(3 V / L)` for the total length `L` and the volume `V` of the periodic box, or of
+    /// the ellipsoid with the same gyration tensor.
     ///
     /// Of linkers: `network_bound_linkers`, `network_clusters` (groups of joined filaments),
     /// `network_largest_cluster` (number of its filaments), `network_linker_tension_mean_pn`, `_rms_pn`,
