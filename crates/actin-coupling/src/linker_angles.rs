@@ -16,8 +16,8 @@ const VECTOR: usize = 3;
 /// ```
 ///
 /// `f` is the direction of the linker (lab frame), and `Q_i` are the frames of the two sites. The
-/// directions `m_i`, `u` and `w` (body frames) are those of the linker and of one direction across
-/// it in a reference configuration. `u` is the projection of the third axis of the first frame, the
+/// vectors `m_i` (body frames) are the direction of the linker in a reference configuration, and `u` and
+/// `w` are one direction across the linker. `u` is the projection of the third axis of the first frame, the
 /// tangent of the filament. For the angles `a_1`, `a_2` between the linker and its reference directions and
 /// `b` between the two filaments, `E = k_t (2 - cos a_1 - cos a_2) + k_w (1 - cos b)`.
 #[derive(Clone, Debug)]

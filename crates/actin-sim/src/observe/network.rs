@@ -207,8 +207,8 @@ impl Edges {
         }
     }
 
-    /// Distance `sqrt(3 V / L)` between filaments of the total length `L` in a volume `V` (nm^3), by default that of
-    /// the ellipsoid with this gyration tensor.
+    /// Distance `sqrt(3 V / L)` between filaments of the total length `L` in a volume `V` (nm^3), by default the volume
+    /// of the ellipsoid with this gyration tensor.
     fn mesh_size_nm(&self, volume: Option<f64>) -> f64 {
         let of_ellipsoid = || {
             let product = self.gyration.determinant().max(0.0);
