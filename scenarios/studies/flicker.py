@@ -67,8 +67,8 @@ def friction():
     return (whole - 2 * ends) / LENGTH, ends
 
 
-def decay():
-    """Times (ns) in which the modes of a slightly bent chain fall to 1/e, from all its eigenmodes."""
+def chain():
+    """Friction and stiffness of the transverse displacements of the nodes of a straight chain."""
     between, ends = friction()
     nodes = SEGMENTS + 1
     drag = np.zeros((nodes, nodes))
@@ -77,9 +77,20 @@ def decay():
     drag[0, 0] += ends
     drag[-1, -1] += ends
     second = np.diff(np.eye(nodes), n=2, axis=0)
+    return drag, BEND / STEP**3 * second.T @ second
+
+
+def eigenmodes(drag, stiffness):
+    """Decay rates (1/ns), and shapes of unit friction."""
     root = np.linalg.inv(np.linalg.cholesky(drag))
-    rates, vectors = np.linalg.eigh(root @ (BEND / STEP**3 * second.T @ second) @ root.T)
-    rates, shapes = rates[2:], (root.T @ vectors)[:, 2:]
+    rates, vectors = np.linalg.eigh(root @ stiffness @ root.T)
+    return rates, root.T @ vectors
+
+
+def decay():
+    """Times (ns) in which the modes of a slightly bent chain fall to 1/e, from all its eigenmodes."""
+    rates, shapes = eigenmodes(*chain())
+    rates, shapes = rates[2:], shapes[:, 2:]
     slopes = np.diff(shapes, axis=0) / STEP
     # Without the mean direction, as in `modes`.
     cosines = np.cos(np.pi * MODES[:, None] * MIDDLES / LENGTH)

@@ -60,6 +60,13 @@ def observed(run, name):
     return table["time_ns"], table[name]
 
 
+def ratio(left, right=1.0, blocks=10):
+    """Ratio of the means of two series, and its standard error from blocks along the first axis."""
+    left, right = np.broadcast_arrays(left, right)
+    parts = [a.mean() / b.mean() for a, b in zip(np.array_split(left, blocks), np.array_split(right, blocks))]
+    return left.mean() / right.mean(), np.std(parts, ddof=1) / blocks**0.5
+
+
 def turns(run):
     """Arc lengths, and rotation vectors (lab, rad) of all frames from the first to the last record."""
     arrays = states(run)

@@ -4,6 +4,7 @@ use actin_mechanics::{
     ControlId, Coordinates, Hooke, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State,
     StepStress, Stiffness, Vector3,
 };
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// External point at one end of a linker.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -315,35 +316,59 @@ impl SecondOrder for Linker {
     }
 }
 
-/// Ratio of the rest length to the thermal extension `sqrt(kT/k)` above which the random stress is a tension. In long
-/// steps, linkers near this ratio have energies that are up to 12 % too low.
-const SLENDER: f64 = 2.7;
+/// Random tension `s` and random force `v` in units of `sqrt(k kT)`: `v` has independent components of standard deviation
+/// `force`, and `s = tension z + share (<|v|> - |v|)` with a normal deviate `z`.
+struct Amplitudes {
+    tension: f64,
+    force: f64,
+    share: f64,
+}
 
-/// Four components: a tension `s` with the energy `-s |d|`, and a constant force `v` with the energy `-v . d`.
-///
-/// A constant force is exact for linkers without rest length. Slender linkers have a tension, which rotates with the
-/// linker during the step.
+impl Amplitudes {
+    /// Mean length of a vector of three normal deviates.
+    fn mean_length() -> f64 {
+        (8.0 / PI).sqrt()
+    }
+
+    /// For a rest length of `ratio` thermal extensions `sqrt(kT/k)`.
+    ///
+    /// A linker that relaxes in much less than a step gets the length `L + (s + |v|) / k`; its mean and variance are
+    /// those of equilibrium, with the density `d^2 exp(-E/kT)`. One that relaxes in about a step keeps its direction,
+    /// and the variance of `s` and of the component of `v` along it adds up to 1.
+    fn new(ratio: f64) -> Self {
+        // Integrals of exp(-(x - ratio)^2 / 2), times x, times x^2 over positive x.
+        let zeroth = (PI / 2.0).sqrt() * (1.0 + libm::erf(ratio * FRAC_1_SQRT_2));
+        let first = ratio * zeroth + (-0.5 * ratio * ratio).exp();
+        let second = ratio * first + zeroth;
+        let extension = 2.0 * first / second;
+        let variance = 3.0 - (ratio + extension) * extension;
+
+        let force = extension / Self::mean_length();
+        let of_length = 3.0 - Self::mean_length().powi(2);
+        let share = 0.5 + ((1.0 - variance) / (force * force) - 1.0) / (2.0 * of_length);
+        let left = variance - of_length * ((1.0 - share) * force).powi(2);
+        Self {
+            tension: left.max(0.0).sqrt(),
+            force,
+            share,
+        }
+    }
+}
+
+/// Four components: a tension `s` with the energy `-s |d|`, which rotates with the linker during the step, and a constant
+/// force `v` with the energy `-v . d`. Linkers without rest length have the force alone, and long ones the tension.
 impl RandomStress for Linker {
     fn components(&self) -> usize {
         4
     }
 
-    fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]) {
-        let d = self.reach(state);
-        let axis = d.try_normalize(0.0).unwrap_or_else(Vector3::x);
-        let along = (self.spring.stiffness * thermal_energy).sqrt();
-        let across = (self.spring.stiffness_across(d).max(0.0) * thermal_energy).sqrt();
-        let is_slender = self.spring.rest_length * self.spring.stiffness > SLENDER * along;
+    fn draw(&self, _: &State, thermal_energy: f64, stresses: &mut [f64]) {
+        let scale = (self.spring.stiffness * thermal_energy).sqrt();
+        let of = Amplitudes::new(self.spring.rest_length * self.spring.stiffness / scale);
         let deviate = Vector3::from_column_slice(&stresses[1..]);
-        let own = axis * axis.dot(&deviate);
-        let axial = if is_slender {
-            Vector3::zeros()
-        } else {
-            own * along
-        };
-        stresses[0] *= if is_slender { along } else { 0.0 };
-        let across = if is_slender { 0.0 } else { across };
-        stresses[1..].copy_from_slice((axial + (deviate - own) * across).as_slice());
+        let of_length = of.share * of.force * (Amplitudes::mean_length() - deviate.norm());
+        stresses[0] = scale * (of.tension * stresses[0] + of_length);
+        stresses[1..].copy_from_slice((deviate * (scale * of.force)).as_slice());
     }
 
     fn balance(&self, state: &State, stresses: &mut [f64]) {
@@ -380,4 +405,41 @@ impl RandomStress for Linker {
 
 fn symmetric(m: Matrix3) -> Matrix3 {
     0.5 * (m + m.transpose())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Mean of a function of a standard normal deviate.
+    fn mean(of: impl Fn(f64) -> f64) -> f64 {
+        const STEP: f64 = 1e-3;
+        let density = |x: f64| (-0.5 * x * x).exp() / (2.0 * PI).sqrt();
+        let points = (-10_000..=10_000).map(|k| f64::from(k) * STEP);
+        points.map(|x| of(x) * density(x) * STEP).sum()
+    }
+
+    /// Moments of `s + |v|` and of `s + v_x` against those of the density `x^2 exp(-(x - ratio)^2 / 2)` and against 1.
+    #[test]
+    fn random_stress_has_the_moments_of_equilibrium() {
+        for ratio in [0.0, 0.3, 1.0, 2.7, 6.0, 40.0] {
+            let of_length = |power: i32| mean(|x| (ratio + x).max(0.0).powi(power));
+            let norm = of_length(2);
+            let (length, square) = (of_length(3) / norm, of_length(4) / norm);
+            let of = Amplitudes::new(ratio);
+            // The length of a vector of normal deviates has the density x^2 times that of a deviate.
+            let (force, tension) = (of.force * mean(|x| x.abs().powi(3)), of.tension.powi(2));
+            let spread = 3.0 * of.force.powi(2) - force * force;
+            let relaxed = tension + (1.0 - of.share).powi(2) * spread;
+            let directed = tension + of.share.powi(2) * spread + of.force.powi(2);
+            let errors = [
+                ratio + force - length,
+                relaxed - (square - length * length),
+                directed - 1.0,
+            ];
+            assert!(errors.iter().all(|e| e.abs() < 1e-6), "{ratio}: {errors:?}");
+        }
+        let long = Amplitudes::new(1e9);
+        assert!((long.tension - 1.0).abs() < 1e-15 && long.force < 1e-8);
+    }
 }

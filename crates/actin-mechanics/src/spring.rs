@@ -61,7 +61,7 @@ impl Hooke {
 
     /// Eigenvalue `k (1 - L / |d|)` of the [`tangent`](Self::tangent) for directions across `d`;
     /// negative infinity at `d = 0` with a rest length.
-    pub fn stiffness_across(&self, d: Vector3) -> f64 {
+    fn stiffness_across(&self, d: Vector3) -> f64 {
         if self.rest_length == 0.0 {
             self.stiffness
         } else {

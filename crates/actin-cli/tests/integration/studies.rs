@@ -128,6 +128,16 @@ const STUDIES: [Study; 8] = [
     },
 ];
 
+/// Scenes of measured networks, and what makes them short.
+const NETWORKS: [(&str, &[&str]); 6] = [
+    ("contraction-network", &["task.duration_ms=0.02"]),
+    ("crossed-pair", &["task.duration_ms=0.1"]),
+    ("fine-network", &[]),
+    ("fine-network-heat", &["task.duration_ms=0.01"]),
+    ("free-filaments", &["task.duration_ms=0.1"]),
+    ("network-heat", &["task.duration_ms=0.1"]),
+];
+
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/studies")
 }
@@ -162,14 +172,20 @@ fn place(study: &Study) -> Workplace {
 fn scenes_run() {
     for study in STUDIES {
         let place = place(&study);
-        let file = format!("{}.ron", study.name);
-        let set = study.set.iter().flat_map(|key| ["--set", key]);
-        let arguments: Vec<&str> = ["run", &file, "--out", "run"]
-            .into_iter()
-            .chain(set)
-            .collect();
-        place.succeed(&arguments);
+        run_short(&place, &format!("{}.ron", study.name), study.set);
     }
+    let place = Workplace::with("");
+    for (name, set) in NETWORKS {
+        let file = folder().join(format!("{name}.ron"));
+        run_short(&place, file.to_str().unwrap(), set);
+    }
+}
+
+fn run_short(place: &Workplace, file: &str, set: &[&str]) {
+    let out = Path::new(file).file_stem().unwrap().to_str().unwrap();
+    let mut arguments = vec!["run", file, "--out", out];
+    arguments.extend(set.iter().flat_map(|key| ["--set", key]));
+    place.succeed(&arguments);
 }
 
 /// Each shortened sweep, whose script writes a figure and the table of its page. Without matplotlib the test is
