@@ -128,7 +128,7 @@ const STUDIES: [Study; 8] = [
     },
 ];
 
-/// Scenes of measured networks, and what makes them short.
+/// Scenes of measured networks, with changes for short runs.
 const NETWORKS: [(&str, &[&str]); 6] = [
     ("contraction-network", &["task.duration_ms=0.02"]),
     ("crossed-pair", &["task.duration_ms=0.1"]),
