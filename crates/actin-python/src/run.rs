@@ -146,10 +146,7 @@ impl Job<'_> {
         let summary = summary.map_err(|error| errors::directory(&error.into()))?;
         let summary = serde_json::to_string(&summary).map_err(errors::value)?;
         let summary = py.import("json")?.call_method1("loads", (summary,))?;
-        let scene = Scene {
-            inner: self.plan.scene().clone(),
-            text: None,
-        };
+        let scene = Scene::from(self.plan.scene().clone());
         let arrays = arrays(py, self.assembly, records)?;
         let arguments = PyDict::new(py);
         arguments.set_item("scene", scene)?;

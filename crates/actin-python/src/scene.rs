@@ -2,7 +2,9 @@
 
 use crate::errors::{self, Source};
 use crate::value::{from_python, to_python};
-use actin_sim::{Assembly, Plan, RandomPart, Scene as Inner, SceneProblem, SceneText, SceneValue};
+use actin_sim::{
+    Assembly, Plan, RandomPart, Scene as Inner, SceneKind, SceneProblem, SceneText, SceneValue,
+};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 use std::io;
@@ -20,6 +22,19 @@ pub(crate) struct Scene {
     pub(crate) inner: Inner,
     /// Text that the scene was read from, which locates problems.
     pub(crate) text: Option<Source>,
+    /// Keys as written of a scene with arrangements or sets of linkers, for `set`.
+    arranged: Option<SceneValue>,
+}
+
+/// A scene without the text that it was read from.
+impl From<Inner> for Scene {
+    fn from(inner: Inner) -> Self {
+        Self {
+            inner,
+            text: None,
+            arranged: None,
+        }
+    }
 }
 
 impl PartialEq for Scene {
@@ -31,7 +46,10 @@ impl PartialEq for Scene {
 impl Scene {
     fn of_value(py: Python<'_>, value: &SceneValue, folder: Option<&Path>) -> PyResult<Self> {
         let inner = Inner::from_value(value, folder).map_err(|p| errors::problem(py, &p))?;
-        Ok(Self { inner, text: None })
+        Ok(Self {
+            arranged: arranged(value),
+            ..inner.into()
+        })
     }
 
     fn of_text(py: Python<'_>, text: &str, file: String, folder: &Path) -> PyResult<Self> {
@@ -40,8 +58,11 @@ impl Scene {
         let read = source.text.read_points(folder);
         let inner = read.and_then(|()| source.text.scene());
         let inner = inner.map_err(|error| errors::mistakes(py, &source, error))?;
-        let text = Some(source);
-        Ok(Self { inner, text })
+        Ok(Self {
+            inner,
+            arranged: arranged(source.text.value()),
+            text: Some(source),
+        })
     }
 
     /// Reads a scene file.
@@ -110,10 +131,19 @@ impl Scene {
     }
 
     /// Returns the scene with another value of a key: `scene.set("loads[0].force_pn[0]", -1.0)`.
+    ///
+    /// Arrangements and sets of linkers are made again. A key of a filament or linker that they made, such as
+    /// `linkers[3].rest_length_nm`, keeps the others as they are.
     fn set(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let mut all = self.inner.to_value();
-        let set = all.set(key, from_python(value)?);
-        set.map_err(|problem| errors::problem(py, &problem))?;
+        let value = from_python(value)?;
+        let changed = |mut all: SceneValue| all.set(key, value.clone()).map(|()| all);
+        let of_all = || changed(self.inner.to_value());
+        let all = match self.arranged.clone().map(changed) {
+            Some(Ok(all)) => Ok(all),
+            Some(Err(problem)) => of_all().map_err(|_| problem),
+            None => of_all(),
+        };
+        let all = all.map_err(|problem| errors::problem(py, &problem))?;
         Self::of_value(py, &all, Some(Path::new("")))
     }
 
@@ -129,7 +159,7 @@ impl Scene {
             let problem = SceneProblem::new("seed", seed, rule);
             return Err(errors::problem(py, &problem));
         }
-        Ok(Self { inner, text: None })
+        Ok(inner.into())
     }
 
     /// Resolves the scene and estimates its cost. Writes nothing.
@@ -142,11 +172,7 @@ impl Scene {
         let plan = py.detach(|| Plan::new(&assembly));
         let plan = plan.map_err(|problem| self.refuse(py, &problem))?;
         let found = PyDict::new(py);
-        let scene = Self {
-            inner: plan.scene().clone(),
-            text: None,
-        };
-        found.set_item("scene", scene)?;
+        found.set_item("scene", Self::from(plan.scene().clone()))?;
         found.set_item("counts", counts(py, &assembly)?)?;
         if let Some(estimate) = plan.estimate() {
             found.set_item("time_step_ns", estimate.time_step_ns)?;
@@ -236,6 +262,16 @@ impl Scene {
         let read = py.get_type::<Self>().getattr("from_ron")?;
         Ok((read, (self.to_ron(),)))
     }
+}
+
+/// Returns a copy of the keys if they have arrangements or sets of linkers.
+fn arranged(scene: &SceneValue) -> Option<SceneValue> {
+    let SceneKind::Group(_, values) = scene.kind() else {
+        return None;
+    };
+    let is_made = |key| matches!(key, "arrangements" | "linker_sets");
+    let mut keys = values.iter().filter_map(SceneValue::key);
+    keys.any(is_made).then(|| scene.clone())
 }
 
 /// Returns the numbers of bodies and degrees of freedom by name.

@@ -95,10 +95,7 @@ fn watched(
 
 /// Converts the trade to an object of the class in `_trade.py`.
 fn to_python(py: Python<'_>, trade: &Trade) -> PyResult<Py<PyAny>> {
-    let python_scene = |inner: &Inner| Scene {
-        inner: inner.clone(),
-        text: None,
-    };
+    let python_scene = |inner: &Inner| Scene::from(inner.clone());
     let scenes = trade.candidates.iter().map(|one| python_scene(&one.scene));
     let units = PyDict::new(py);
     for item in &trade.items {

@@ -143,3 +143,14 @@ def test_representations(scene):
     assert repr(scene.set("title", "<b>")) == 'Scene("<b>", 1 filament, Equilibrium)'
     html = scene.set("title", "<b>")._repr_html_()
     assert "&lt;b&gt;" in html and "<b>" not in html
+
+
+def test_arrangements_and_sets_of_linkers_are_made_again(root):
+    scene = af.Scene.from_file(root / "scenarios/random-network.ron")
+    fewer = scene.set("linker_sets[0].per_filament", 1.0).set("arrangements[0].count", 80)
+    assert len(fewer.to_dict()["filaments"]) == 80
+    assert len(fewer.to_dict()["linkers"]) == 80
+    one = scene.set("linkers[3].rest_length_nm", 7.0).to_dict()["linkers"]
+    assert len(one) == 250
+    assert one[3]["rest_length_nm"] == 7.0
+    assert one[4] == scene.to_dict()["linkers"][4]

@@ -11,8 +11,10 @@
 //! Each switch has two records at the same time, before and after it.
 
 use crate::RunDirectoryError;
+use crate::atomic::unfinished;
 use crate::directory::RunDirectory;
 use crate::lock::LOCK;
+use crate::manifest::remove_if_there;
 use crate::names::{ENERGIES, MANIFEST, OBSERVABLES, PICTURES, STRETCHES, SUMMARY, SWITCHES};
 use crate::write::{read_json, write_json};
 use actin_sim::Summary;
@@ -121,6 +123,10 @@ impl FollowedDirectory {
         let end_ns = self.join(ENERGIES, beginnings, |column| COMMON.contains(&column))?;
         if self.stretch(0).join(OBSERVABLES).exists() {
             self.join(OBSERVABLES, beginnings, |_| true)?;
+        }
+        for one in beginnings {
+            // Left where a process was killed after it had written the results of the stretch.
+            remove_if_there(&unfinished(&self.stretch(one.index).join(MANIFEST)))?;
         }
         let stretches = beginnings.iter().map(|one| self.stretch(one.index));
         let stretches = stretches.map(|path| RunDirectory::existing(path).summary());

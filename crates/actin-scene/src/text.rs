@@ -136,6 +136,11 @@ impl SceneText {
         }
     }
 
+    /// Returns the keys and values of the text with all overrides and points of files.
+    pub fn value(&self) -> &SceneValue {
+        &self.parsed.root
+    }
+
     /// Returns the text without overrides.
     pub fn written(&self) -> &str {
         &self.written

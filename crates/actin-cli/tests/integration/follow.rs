@@ -78,6 +78,8 @@ fn overdamped_motion_of_changing_resolution_resumes_to_the_same_bytes() {
     }
     // As left by a process killed between writing its results and removing its checkpoint.
     place.write("parts/stretches/0000/checkpoint.bin", "left");
+    // As left by one killed while it replaces its list of files.
+    place.write("parts/stretches/0001/actin-run.json.part", "left");
     place.resume("parts");
     assert_same(&place.path("whole"), &place.path("parts"));
 }
