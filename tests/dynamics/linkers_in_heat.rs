@@ -117,8 +117,8 @@ fn angles_of_linkers_have_their_thermal_energy() {
 }
 
 /// Linkers that rotate by up to 0.8 rad in a step, and relax in a hundredth of it; the thermal extension is 1.4 nm. Random
-/// stress that does not rotate with them gives 0.76 of the energy for 60 nm, one that is a tension alone 0.88 for 4.2 nm,
-/// and iterations that end at 0.01 kT give 1.5 times the energy for 20 nm.
+/// stress that does not rotate with them gives 0.76 of the energy for 60 nm. A tension alone gives 0.88 for 4.2 nm, and
+/// iterations that end at 0.01 kT give 1.5 times the energy for 20 nm.
 /// The exact energy is `(kT/2) (L^2 + 3 s^2) / (L^2 + s^2)` with `s^2 = kT/k`, within 0.001 for 4.2 nm.
 #[test]
 fn long_steps_keep_the_energy_of_linkers_with_a_rest_length() {

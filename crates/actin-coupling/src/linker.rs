@@ -346,6 +346,8 @@ impl Amplitudes {
         let force = extension / Self::mean_length();
         let of_length = 3.0 - Self::mean_length().powi(2);
         let share = 0.5 + ((1.0 - variance) / (force * force) - 1.0) / (2.0 * of_length);
+        // Between 0 and 0.8, but for rounding.
+        let share = share.clamp(0.0, 1.0);
         let left = variance - of_length * ((1.0 - share) * force).powi(2);
         Self {
             tension: left.max(0.0).sqrt(),
@@ -439,7 +441,9 @@ mod tests {
             ];
             assert!(errors.iter().all(|e| e.abs() < 1e-6), "{ratio}: {errors:?}");
         }
-        let long = Amplitudes::new(1e9);
-        assert!((long.tension - 1.0).abs() < 1e-15 && long.force < 1e-8);
+        for ratio in [1e9, 1e60] {
+            let long = Amplitudes::new(ratio);
+            assert!((long.tension - 1.0).abs() < 1e-15 && long.force * (1.0 + long.share) < 1e-8);
+        }
     }
 }

@@ -133,7 +133,7 @@ impl Scene {
     /// Returns the scene with another value of a key: `scene.set("loads[0].force_pn[0]", -1.0)`.
     ///
     /// Arrangements and sets of linkers are made again. A key of a filament or linker that they made, such as
-    /// `linkers[3].rest_length_nm`, keeps the others as they are.
+    /// `linkers[3].rest_length_nm`, changes no other key.
     fn set(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let value = from_python(value)?;
         let changed = |mut all: SceneValue| all.set(key, value.clone()).map(|()| all);
