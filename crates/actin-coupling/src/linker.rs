@@ -332,9 +332,9 @@ impl Amplitudes {
 
     /// For a rest length of `ratio` thermal extensions `sqrt(kT/k)`.
     ///
-    /// A linker that relaxes in much less than a step gets the length `L + (s + |v|) / k`; its mean and variance are
-    /// those of equilibrium, with the density `d^2 exp(-E/kT)`. One that relaxes in about a step keeps its direction,
-    /// and the variance of `s` and of the component of `v` along it adds up to 1.
+    /// A linker that relaxes in much less than a step gets the length `L + (s + |v|) / k`. The mean and the variance of
+    /// this length are those of the equilibrium density `d^2 exp(-E/kT)`. A linker that relaxes in about a step keeps
+    /// its direction, and the variances of `s` and of the component of `v` in this direction have the sum 1.
     fn new(ratio: f64) -> Self {
         // Integrals of exp(-(x - ratio)^2 / 2), times x, times x^2 over positive x.
         let zeroth = (PI / 2.0).sqrt() * (1.0 + libm::erf(ratio * FRAC_1_SQRT_2));
@@ -346,7 +346,7 @@ impl Amplitudes {
         let force = extension / Self::mean_length();
         let of_length = 3.0 - Self::mean_length().powi(2);
         let share = 0.5 + ((1.0 - variance) / (force * force) - 1.0) / (2.0 * of_length);
-        // Between 0 and 0.8, but for rounding.
+        // Exact values are between 0 and 0.8; rounding errors are large for long linkers.
         let share = share.clamp(0.0, 1.0);
         let left = variance - of_length * ((1.0 - share) * force).powi(2);
         Self {
@@ -421,7 +421,7 @@ mod tests {
         points.map(|x| of(x) * density(x) * STEP).sum()
     }
 
-    /// Moments of `s + |v|` and of `s + v_x` against those of the density `x^2 exp(-(x - ratio)^2 / 2)` and against 1.
+    /// `s + |v|` has the mean and the variance of the density `x^2 exp(-(x - ratio)^2 / 2)`; `s + v_x` has the variance 1.
     #[test]
     fn random_stress_has_the_moments_of_equilibrium() {
         for ratio in [0.0, 0.3, 1.0, 2.7, 6.0, 40.0] {
@@ -429,7 +429,7 @@ mod tests {
             let norm = of_length(2);
             let (length, square) = (of_length(3) / norm, of_length(4) / norm);
             let of = Amplitudes::new(ratio);
-            // The length of a vector of normal deviates has the density x^2 times that of a deviate.
+            // The length of a vector of three normal deviates has a density proportional to x^2 exp(-x^2 / 2).
             let (force, tension) = (of.force * mean(|x| x.abs().powi(3)), of.tension.powi(2));
             let spread = 3.0 * of.force.powi(2) - force * force;
             let relaxed = tension + (1.0 - of.share).powi(2) * spread;

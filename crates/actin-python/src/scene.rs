@@ -22,8 +22,9 @@ pub(crate) struct Scene {
     pub(crate) inner: Inner,
     /// Text that the scene was read from, which locates problems.
     pub(crate) text: Option<Source>,
-    /// Keys as written of a scene with arrangements or sets of linkers, for `set`.
-    arranged: Option<SceneValue>,
+    /// Keys as written of a scene with arrangements or sets of linkers, and the folder of their files of points, for
+    /// `set`.
+    arranged: Option<(SceneValue, Option<PathBuf>)>,
 }
 
 /// A scene without the text that it was read from.
@@ -47,7 +48,7 @@ impl Scene {
     fn of_value(py: Python<'_>, value: &SceneValue, folder: Option<&Path>) -> PyResult<Self> {
         let inner = Inner::from_value(value, folder).map_err(|p| errors::problem(py, &p))?;
         Ok(Self {
-            arranged: arranged(value),
+            arranged: arranged(value, folder),
             ..inner.into()
         })
     }
@@ -60,7 +61,7 @@ impl Scene {
         let inner = inner.map_err(|error| errors::mistakes(py, &source, error))?;
         Ok(Self {
             inner,
-            arranged: arranged(source.text.value()),
+            arranged: arranged(source.text.value(), Some(folder)),
             text: Some(source),
         })
     }
@@ -137,13 +138,15 @@ impl Scene {
     fn set(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let value = from_python(value)?;
         let changed = |mut all: SceneValue| all.set(key, value.clone()).map(|()| all);
-        let of_all = || changed(self.inner.to_value());
-        let all = match self.arranged.clone().map(changed) {
-            Some(Ok(all)) => Ok(all),
-            Some(Err(problem)) => of_all().map_err(|_| problem),
-            None => of_all(),
-        };
-        let all = all.map_err(|problem| errors::problem(py, &problem))?;
+        let mut refused = None;
+        if let Some((keys, folder)) = &self.arranged {
+            match changed(keys.clone()) {
+                Ok(all) => return Self::of_value(py, &all, folder.as_deref()),
+                Err(problem) => refused = Some(problem),
+            }
+        }
+        let all = changed(self.inner.to_value());
+        let all = all.map_err(|problem| errors::problem(py, &refused.unwrap_or(problem)))?;
         Self::of_value(py, &all, Some(Path::new("")))
     }
 
@@ -264,14 +267,15 @@ impl Scene {
     }
 }
 
-/// Returns a copy of the keys if they have arrangements or sets of linkers.
-fn arranged(scene: &SceneValue) -> Option<SceneValue> {
+/// Returns copies of the keys and of the folder if there are arrangements or sets of linkers.
+fn arranged(scene: &SceneValue, folder: Option<&Path>) -> Option<(SceneValue, Option<PathBuf>)> {
     let SceneKind::Group(_, values) = scene.kind() else {
         return None;
     };
     let is_made = |key| matches!(key, "arrangements" | "linker_sets");
     let mut keys = values.iter().filter_map(SceneValue::key);
-    keys.any(is_made).then(|| scene.clone())
+    keys.any(is_made)
+        .then(|| (scene.clone(), folder.map(Path::to_path_buf)))
 }
 
 /// Returns the numbers of bodies and degrees of freedom by name.

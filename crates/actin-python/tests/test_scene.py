@@ -154,3 +154,12 @@ def test_arrangements_and_sets_of_linkers_are_made_again(root):
     assert len(one) == 250
     assert one[3]["rest_length_nm"] == 7.0
     assert one[4] == scene.to_dict()["linkers"][4]
+
+
+def test_files_of_points_beside_an_arrangement_are_found_again(keys, tmp_path):
+    (tmp_path / "trace.csv").write_text("0,0,0\n0,10,80\n0,0,170\n")
+    keys["arrangements"] = [{"Copies": {"filament": dict(keys["filament"]), "count": 2, "shift_nm": [50.0, 0.0, 0.0]}}]
+    keys["filament"]["shape"] = {"Points": {"file": "trace.csv"}}
+    scene = af.Scene.from_dict(keys, folder=tmp_path)
+    more = scene.set("arrangements[0].count", 3)
+    assert len(more.to_dict()["filaments"]) == 4
