@@ -109,8 +109,16 @@ impl Stresses {
         }
     }
 
-    pub(crate) fn balance_all(&mut self, is_balanced: bool) {
-        self.is_balanced.fill(is_balanced);
+    /// Balances the interactions of an early iteration, in which compressed springs would often make the matrix
+    /// indefinite: all in the first one, those without axial frames in the second one.
+    pub(crate) fn balance_early(&mut self, interactions: &Interactions, iteration: usize) {
+        for ((k, _), is_balanced) in self.parts.iter().zip(&mut self.is_balanced) {
+            *is_balanced = match iteration {
+                0 => true,
+                1 => is_spring(interactions, *k),
+                _ => false,
+            };
+        }
     }
 
     /// Balances more interactions: the first of the following groups that is not balanced yet.
@@ -127,7 +135,7 @@ impl Stresses {
         components: &Components,
         worst: &[usize],
     ) -> Vec<usize> {
-        let is_spring = |k: usize| of(interactions, k).axial_frames().is_empty();
+        let is_spring = |k: usize| is_spring(interactions, k);
         let is_worst = |k: usize| components.couples(k, worst);
         let choices: [&dyn Fn(usize) -> bool; 4] = [
             &|k| is_spring(k) && is_worst(k),
@@ -159,6 +167,7 @@ impl Stresses {
         for ((k, range), is_balanced) in self.parts.iter().zip(&self.is_balanced) {
             if *is_balanced && components.has_interaction(*k) {
                 let stresses = &mut self.balancing[range.clone()];
+                stresses.copy_from_slice(&self.turned[range.clone()]);
                 of(interactions, *k).balance(state, stresses);
             }
         }
@@ -203,6 +212,10 @@ impl Stresses {
 fn of(interactions: &Interactions, k: usize) -> &dyn RandomStress {
     let stress = interactions[k].random_stress();
     stress.expect("interactions do not lose their random stress")
+}
+
+fn is_spring(interactions: &Interactions, k: usize) -> bool {
+    of(interactions, k).axial_frames().is_empty()
 }
 
 /// Matrix of an iteration: interactions with their stresses, then the friction of each component.

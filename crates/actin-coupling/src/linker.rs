@@ -6,6 +6,9 @@ use actin_mechanics::{
 };
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
+/// Distance to a kink of the energy, relative to the negative rest length, below which the stiffness does not grow.
+const CLOSE: f64 = 1e-6;
+
 /// External point at one end of a linker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anchor {
@@ -373,9 +376,11 @@ impl RandomStress for Linker {
         stresses[1..].copy_from_slice((deviate * (scale * of.force)).as_slice());
     }
 
+    /// Keeps the tension, which changes the rest length.
     fn balance(&self, state: &State, stresses: &mut [f64]) {
-        stresses[0] = 0.0;
-        stresses[1..].copy_from_slice(self.force(state).as_slice());
+        stresses[1..].fill(0.0);
+        let force = self.force(state) - self.random_force(state, stresses);
+        stresses[1..].copy_from_slice(force.as_slice());
     }
 
     fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads) {
@@ -390,19 +395,30 @@ impl RandomStress for Linker {
     ) {
         let d = self.reach(state);
         let force = self.spring.force(d) - self.random_force(state, stress.values);
-        let tangent = if stress.is_balanced {
-            self.spring.convex_tangent(d)
+        // A tension is a change of the rest length.
+        let spring = Hooke {
+            rest_length: self.spring.rest_length + stress.values[0] / self.spring.stiffness,
+            ..self.spring
+        };
+        let tangent = if spring.rest_length < 0.0 {
+            upper_bound(&spring, d)
+        } else if stress.is_balanced {
+            spring.convex_tangent(d)
         } else {
-            // A tension is a change of the rest length.
-            let rest_length = self.spring.rest_length + stress.values[0] / self.spring.stiffness;
-            Hooke {
-                rest_length,
-                ..self.spring
-            }
-            .tangent(d)
+            spring.tangent(d)
         };
         self.push_stiffness((force, tangent), state, stiffness);
     }
+}
+
+/// Tangent `k (1 - L / |d|)` in all directions, for a negative rest length `L`. Its quadratic energy is an upper bound of
+/// the energy. The energy has a kink at `d = 0`, and iterations with the exact tangent alternate about minima close to it.
+///
+/// # Source
+/// E. Weiszfeld, Tohoku Math. J. 43 (1937) 355.
+fn upper_bound(spring: &Hooke, d: Vector3) -> Matrix3 {
+    let length = d.norm().max(-CLOSE * spring.rest_length);
+    Matrix3::identity() * (spring.stiffness * (1.0 - spring.rest_length / length))
 }
 
 fn symmetric(m: Matrix3) -> Matrix3 {

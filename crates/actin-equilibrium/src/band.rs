@@ -13,12 +13,17 @@ use std::ops::Range;
 
 const WIDEST: usize = 6;
 
+/// Number of equal blocks that are solved together. The processor overlaps their operations.
+const ABREAST: usize = 4;
+
 #[derive(Debug)]
 pub(crate) struct Band {
     /// Start of each column, and end of the last.
     starts: Vec<usize>,
     /// Columns of each panel, and the end of their rows.
     panels: Vec<(Range<usize>, usize)>,
+    /// Columns that are not coupled to others, as those of a filament.
+    blocks: Vec<Range<usize>>,
 }
 
 impl Band {
@@ -26,18 +31,34 @@ impl Band {
     pub(crate) fn from_symbolic(symbolic: &SymbolicSimplicialCholesky<usize>) -> Option<Self> {
         let starts = symbolic.col_ptr().to_vec();
         let mut panels: Vec<(Range<usize>, usize)> = Vec::new();
+        let mut blocks: Vec<Range<usize>> = Vec::new();
         for column in 0..symbolic.ncols() {
             let rows = &symbolic.row_idx()[starts[column]..starts[column + 1]];
             let end = column + rows.len();
             if !rows.iter().copied().eq(column..end) {
                 return None;
             }
+            match blocks.last_mut() {
+                Some(block) if column < block.end => block.end = block.end.max(end),
+                _ => blocks.push(column..end),
+            }
             match panels.last_mut() {
                 Some((panel, last)) if *last == end && panel.len() < WIDEST => panel.end += 1,
                 _ => panels.push((column..column + 1, end)),
             }
         }
-        Some(Self { starts, panels })
+        Some(Self {
+            starts,
+            panels,
+            blocks,
+        })
+    }
+
+    /// Blocks within a range of whole blocks.
+    fn blocks_in(&self, range: &Range<usize>) -> &[Range<usize>] {
+        let first = self.blocks.partition_point(|b| b.end <= range.start);
+        let last = self.blocks.partition_point(|b| b.start < range.end);
+        &self.blocks[first..last]
     }
 
     pub(crate) fn place(
@@ -110,20 +131,41 @@ impl WithSimd for Solve<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let column = |k: usize| &self.values[self.band.starts[k]..self.band.starts[k + 1]];
-        for columns in self.ranges {
-            for k in columns.clone() {
-                let own = &column(k)[1..];
-                let (head, below) = self.b[k..].split_at_mut(1);
-                subtract(&mut below[..own.len()], [own], [head[0]]);
-            }
-            for k in columns.clone().rev() {
-                let own = column(k);
-                let below = &self.b[k + 1..k + own.len()];
-                self.b[k] = self.b[k] / own[0] - dot(&own[1..], below);
+        let Solve {
+            band,
+            values,
+            b,
+            ranges,
+        } = self;
+        let column = |k: usize| &values[band.starts[k]..band.starts[k + 1]];
+        let blocks = ranges.iter().flat_map(|range| band.blocks_in(range));
+        let blocks: Vec<_> = blocks.cloned().collect();
+        for equal in blocks.chunk_by(|a, b| a.len() == b.len()) {
+            for abreast in equal.chunks(ABREAST) {
+                for k in 0..abreast[0].len() {
+                    for block in abreast {
+                        subtract_column(column(block.start + k), &mut b[block.start + k..]);
+                    }
+                }
+                for k in (0..abreast[0].len()).rev() {
+                    for block in abreast {
+                        divide_and_subtract(column(block.start + k), &mut b[block.start + k..]);
+                    }
+                }
             }
         }
     }
+}
+
+#[inline(always)]
+fn subtract_column(own: &[f64], b: &mut [f64]) {
+    let (head, below) = b.split_at_mut(1);
+    subtract(&mut below[..own.len() - 1], [&own[1..]], [head[0]]);
+}
+
+#[inline(always)]
+fn divide_and_subtract(own: &[f64], b: &mut [f64]) {
+    b[0] = b[0] / own[0] - dot(&own[1..], &b[1..own.len()]);
 }
 
 /// Eliminates the columns of a panel from each other, without scaling; returns the reciprocals of

@@ -56,7 +56,7 @@ const SHORTENINGS: usize = 12;
 const ACCEPTED: f64 = 0.95;
 
 /// Relative tolerance; later iterations of the step correct the error.
-const TOLERANCE: f64 = 1e-1;
+const TOLERANCE: f64 = 0.03;
 
 impl ImplicitSolver {
     /// Solver for the unknowns of `layout`.

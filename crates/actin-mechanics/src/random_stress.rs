@@ -18,8 +18,8 @@ pub trait RandomStress: SecondOrder {
     /// `thermal_energy` times the strain stiffness at `state`. Negative stiffness counts as zero.
     fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]);
 
-    /// Writes the stresses that cancel the elements' own stresses at `state`. The sum exerts no
-    /// loads and has the second derivatives of linear strains.
+    /// Changes random stresses to stresses that cancel the elements' own stresses at `state`. The sum
+    /// exerts no loads and has the second derivatives of linear strains.
     fn balance(&self, state: &State, stresses: &mut [f64]);
 
     /// Adds the loads of the stresses, `s . de/dx`.

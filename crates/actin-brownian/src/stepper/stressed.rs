@@ -162,7 +162,8 @@ impl Brownian {
         let (state, interactions) = (system.state(), system.interactions());
         let friction = self.friction.times(factor).in_axes_of(&self.middle);
         let components = &self.components;
-        self.stresses.balance_all(self.progress.is_first());
+        let iteration = self.progress.iterations();
+        self.stresses.balance_early(interactions, iteration);
         let mut changed: Option<Subset> = None;
         loop {
             self.stresses.find_balance(interactions, components, state);
