@@ -121,6 +121,22 @@ impl Components {
         self.selected = self.subset(components);
     }
 
+    /// Selects components and those that are coupled to them; all if couplings depend on distances.
+    pub(crate) fn select_with_neighbours(&mut self, mut components: Vec<bool>) {
+        if self.are_everywhere.contains(&true) {
+            components.fill(true);
+        }
+        let own = components.clone();
+        for coupled in &self.of_interactions {
+            if coupled.iter().any(|&c| own[c]) {
+                for &c in coupled {
+                    components[c] = true;
+                }
+            }
+        }
+        self.select(components);
+    }
+
     /// Every subset includes interactions without couplings at the start of the step.
     fn subset(&self, components: Vec<bool>) -> Subset {
         let of_interactions = self.of_interactions.iter();

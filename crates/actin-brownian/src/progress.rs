@@ -43,6 +43,8 @@ struct Component {
     /// `true` if the last two iterations had equal friction.
     is_even: bool,
     is_solved: bool,
+    /// `true` if it has moved, and others have not, since the loads of its neighbours were checked.
+    has_moved: bool,
 }
 
 impl Progress {
@@ -96,12 +98,25 @@ impl Progress {
         })
     }
 
-    /// Reopens solved components whose loads allow a further decrease of energy (pN nm) of more than the
-    /// tolerance. Returns `true` if there are none.
-    pub(crate) fn reopen(&mut self, decreases: &[f64], thermal_energy: f64) -> bool {
-        for (component, decrease) in self.components.iter_mut().zip(decreases) {
+    /// Components whose motion has not been checked for its effects on others.
+    pub(crate) fn moved(&self) -> Vec<bool> {
+        let components = self.components.iter();
+        components.map(|component| component.has_moved).collect()
+    }
+
+    /// Reopens selected components whose loads allow a further decrease of energy (pN nm) of more than
+    /// the tolerance. Returns `true` if there are none.
+    pub(crate) fn reopen(
+        &mut self,
+        decreases: &[f64],
+        is_selected: impl Fn(usize) -> bool,
+        thermal_energy: f64,
+    ) -> bool {
+        let components = self.components.iter_mut().zip(decreases).enumerate();
+        for (c, (component, decrease)) in components {
             // Also for NaN.
-            component.is_solved &= decrease.abs() <= ENOUGH * thermal_energy;
+            component.is_solved &= !is_selected(c) || decrease.abs() <= ENOUGH * thermal_energy;
+            component.has_moved = false;
         }
         self.components.iter().all(|component| component.is_solved)
     }
@@ -116,6 +131,7 @@ impl Progress {
         thermal_energy: f64,
     ) -> bool {
         let is_first = self.is_first();
+        let is_part = !(0..self.components.len()).all(&is_selected);
         let components = self.components.iter_mut().zip(steps).enumerate();
         for (_, (component, step)) in components.filter(|(c, _)| is_selected(*c)) {
             if is_first {
@@ -123,6 +139,7 @@ impl Progress {
             } else {
                 component.record(step, self.iterations, limits, thermal_energy);
             }
+            component.has_moved = is_part;
         }
         let largest = self.largest().displacement;
         if self.first.is_none() && largest > 0.0 {

@@ -59,10 +59,9 @@ impl Gradients {
         inertia.is_positive()
     }
 
-    /// Solves with the last factors of all chains, without links.
-    pub(crate) fn solve_chains(&mut self, b: &mut [f64]) {
-        let all = 0..b.len();
-        self.factor.solve_columns(b, std::slice::from_ref(&all));
+    /// Solves with the last factors of the chains of `columns`, without links.
+    pub(crate) fn solve_chains(&mut self, b: &mut [f64], columns: &[Range<usize>]) {
+        self.factor.solve_columns(b, columns);
     }
 
     pub(crate) fn indefinite_columns(&self) -> Vec<usize> {

@@ -11,6 +11,7 @@ use crate::outcome::SolveError;
 use actin_mechanics::{
     Approach, Coordinates, Interaction, Loads, SecondOrder, State, UnitQuaternion, Vectors,
 };
+use std::ops::Range;
 
 /// Solver for the linear equations of implicit time steps.
 ///
@@ -189,14 +190,20 @@ impl ImplicitSolver {
         };
     }
 
-    /// Energy decrease of a step of each component for `loads` (pN nm), with the last factors of the
-    /// components and without their links.
-    pub fn predicted_decreases(&mut self, state: &State, loads: &Loads) -> Vec<f64> {
+    /// Energy decrease of a step of each selected component for `loads` (pN nm), with the last factors
+    /// of the components and without their links. Values of other components have no meaning.
+    pub fn predicted_decreases(
+        &mut self,
+        (state, loads): (&State, &Loads),
+        is_selected: impl Fn(usize) -> bool,
+    ) -> Vec<f64> {
         let unknowns = self.layout.unknowns();
         self.loads.resize(unknowns, 0.0);
         self.layout.reduce(state, loads, &mut self.loads);
         self.step.clone_from(&self.loads);
-        self.linear.precondition(&mut self.step);
+        let is_selected: Vec<bool> = (0..self.components()).map(is_selected).collect();
+        let columns = self.clusters.columns(&self.layout, &is_selected);
+        self.linear.precondition(&mut self.step, &columns);
         let products = self.loads.iter().zip(&self.step);
         let halves: Vec<f64> = products.map(|(f, p)| 0.5 * f * p).collect();
         self.clusters.sums(&self.layout, &halves)
@@ -404,10 +411,10 @@ impl ImplicitSolver {
 }
 
 impl Linear {
-    fn precondition(&mut self, b: &mut [f64]) {
+    fn precondition(&mut self, b: &mut [f64], columns: &[Range<usize>]) {
         match self {
             Self::Unknown => panic!("no matrix has been factorised"),
-            Self::Gradients(gradients) => gradients.solve_chains(b),
+            Self::Gradients(gradients) => gradients.solve_chains(b, columns),
             Self::Direct(factor) => factor.solve(b),
         }
     }

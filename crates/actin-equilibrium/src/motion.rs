@@ -166,11 +166,26 @@ impl Layout {
 
     /// Linear and angular velocities (lab frame).
     pub(crate) fn velocities(&self, state: &State, step: &[f64]) -> (Vectors, Vectors) {
-        let mut moved = Vectors::zeros(state.points.len());
-        let mut turned = Vectors::zeros(state.frames.len());
-        for (node, range) in self.nodes() {
-            let step = &step[range];
-            match node {
+        let mut velocities = (
+            Vectors::zeros(state.points.len()),
+            Vectors::zeros(state.frames.len()),
+        );
+        let nodes: Vec<usize> = (0..self.len()).collect();
+        self.find_velocities(&nodes, state, step, &mut velocities);
+        velocities
+    }
+
+    /// Linear and angular velocities of the bodies of some nodes (lab frame).
+    pub(crate) fn find_velocities(
+        &self,
+        nodes: &[usize],
+        state: &State,
+        step: &[f64],
+        (moved, turned): &mut (Vectors, Vectors),
+    ) {
+        for &k in nodes {
+            let step = &step[self.range(k)];
+            match self.node(k) {
                 Node::Point(i) => moved.set(i, three(step)),
                 Node::Frame(i) => turned.set(i, state.frames.orientation.get(i) * three(step)),
                 Node::Group(g) => {
@@ -185,7 +200,6 @@ impl Layout {
                 }
             }
         }
-        (moved, turned)
     }
 
     /// Step between two states: inverse of [`apply`](Layout::apply).

@@ -59,17 +59,21 @@ impl Brownian {
         Err(self.failure(system, &self.progress.largest()))
     }
 
-    /// Returns `true` if the components that were held in the last iteration are still solved after
-    /// the motion of the others, and reopens the components that are not.
+    /// Returns `true` if the neighbours of components that have moved alone are still solved, and
+    /// reopens those that are not.
     fn is_balanced(&mut self, system: &mut System, h: f64) -> bool {
         if self.components.selection().is_none() {
             return true;
         }
-        self.components.select(vec![true; self.components.count()]);
+        self.components
+            .select_with_neighbours(self.progress.moved());
         self.find_residual(system, h);
-        let state = system.state();
-        let decreases = self.solver.predicted_decreases(state, &self.residual);
-        self.progress.reopen(&decreases, self.thermal_energy)
+        let components = &self.components;
+        let is_selected = |c| components.has_component(c);
+        let at = (system.state(), &self.residual);
+        let decreases = self.solver.predicted_decreases(at, is_selected);
+        self.progress
+            .reopen(&decreases, is_selected, self.thermal_energy)
     }
 
     /// Moves the bodies by the step of an iteration. Bodies that repel each other meet, but do not

@@ -134,36 +134,34 @@ impl Clusters {
         if step.iter().any(|value| !value.is_finite()) {
             return vec![StepSize::INFINITE; self.all.len()];
         }
-        let spinning = layout.spinning(spins);
         let mut tilts = step.to_vec();
-        for &(_, at) in &spinning {
-            tilts[at] = 0.0;
-        }
-        let velocities = layout.velocities(from, &tilts);
-        let mut scales = vec![1.0; from.frames.len()];
+        let mut velocities = (
+            Vectors::zeros(from.points.len()),
+            Vectors::zeros(from.frames.len()),
+        );
         let mut sizes = Vec::with_capacity(self.all.len());
         for (cluster, share) in self.all.iter().zip(shares) {
             if cluster.is_still(layout, step) {
                 sizes.push(StepSize::default());
                 continue;
             }
+            let spinning = || layout.spinning(&cluster.nodes, spins);
+            spinning().for_each(|(_, at)| tilts[at] = 0.0);
             let own = layout.extent_of(&cluster.nodes, &tilts);
             let scale = (limits.rotation / own.rotation)
                 .min(limits.displacement / own.displacement)
                 .min(1.0)
                 * share;
             layout.apply_to(&cluster.nodes, to, &tilts, scale);
+            layout.find_velocities(&cluster.nodes, from, &tilts, &mut velocities);
             cluster.carry(from, &velocities, scale, to);
-            for &i in &cluster.frames {
-                scales[i] = scale;
+            for (i, at) in spinning() {
+                let turn = rotation::exp(Vector3::z() * (step[at] * scale));
+                let q = to.frames.orientation.get(i) * turn;
+                let q = UnitQuaternion::new_normalize(q.into_inner());
+                to.frames.orientation.set(i, q);
             }
             sizes.push(layout.extent_of(&cluster.nodes, step));
-        }
-        for (i, at) in spinning.into_iter().filter(|(_, at)| step[*at] != 0.0) {
-            let turn = rotation::exp(Vector3::z() * (step[at] * scales[i]));
-            let q = to.frames.orientation.get(i) * turn;
-            let q = UnitQuaternion::new_normalize(q.into_inner());
-            to.frames.orientation.set(i, q);
         }
         sizes
     }
@@ -179,14 +177,11 @@ fn of_nodes(clusters: &[Cluster], layout: &Layout) -> Vec<usize> {
 
 impl Layout {
     /// Frames that may spin, with the index of their unknown.
-    fn spinning(&self, spins: &[bool]) -> Vec<(usize, usize)> {
-        let frames = self.nodes().filter_map(|(node, range)| match node {
-            Node::Frame(i) => Some((i, range.start + 2)),
-            Node::Point(_) | Node::Group(_) => None,
-        });
-        frames
-            .filter(|(i, _)| spins.get(*i).copied().unwrap_or(false))
-            .collect()
+    fn spinning(&self, nodes: &[usize], spins: &[bool]) -> impl Iterator<Item = (usize, usize)> {
+        nodes.iter().filter_map(|&k| match self.node(k) {
+            Node::Frame(i) if spins.get(i) == Some(&true) => Some((i, self.range(k).start + 2)),
+            Node::Frame(_) | Node::Point(_) | Node::Group(_) => None,
+        })
     }
 }
 
