@@ -126,7 +126,7 @@ pub enum Observable {
     ///
     /// Of linkers: `network_bound_linkers`, `network_clusters` (groups of joined filaments),
     /// `network_largest_cluster` (number of its filaments), `network_linker_tension_mean_pn`, `_rms_pn`,
-    /// `_smallest_pn`, `_largest_pn`.
+    /// `_smallest_pn`, `_largest_pn`, and quantiles from `_p05_pn` to `_p95_pn`.
     ///
     /// Virial: `network_virial_xx_pn_nm` and `_yy`, `_zz`, `_xy`, `_xz`, `_yz`. It is `-sum r f^T` over points
     /// with the forces of filaments, linkers between sites and contacts. Divided by the volume it is the stress

@@ -20,7 +20,7 @@ const COMPONENTS: [(&str, usize, usize); 6] = [
 const XZ: usize = 4;
 
 /// Columns before those of the virial.
-const SCALARS: [&str; 11] = [
+const SCALARS: [&str; 16] = [
     "order_parameter",
     "polarity",
     "gyration_radius_nm",
@@ -32,7 +32,15 @@ const SCALARS: [&str; 11] = [
     "linker_tension_rms_pn",
     "linker_tension_smallest_pn",
     "linker_tension_largest_pn",
+    "linker_tension_p05_pn",
+    "linker_tension_p25_pn",
+    "linker_tension_p50_pn",
+    "linker_tension_p75_pn",
+    "linker_tension_p95_pn",
 ];
+
+/// Percentages of the quantiles of tensions.
+const PERCENT: [usize; 5] = [5, 25, 50, 75, 95];
 
 /// Columns of the moduli of an oscillating periodic box.
 const MODULI: [&str; 2] = ["network_storage_modulus_pa", "network_loss_modulus_pa"];
@@ -156,6 +164,7 @@ impl Observe for Network {
         let largest = sizes.iter().copied().max().unwrap_or_default();
         row.extend([sizes.len() as f64, largest as f64]);
         row.extend(statistics(&linkers.tensions));
+        row.extend(quantiles(linkers.tensions));
         let virial = virial(view);
         let virial = COMPONENTS.map(|(_, i, j)| 0.5 * (virial[(i, j)] + virial[(j, i)]));
         row.extend(virial);
@@ -279,6 +288,19 @@ fn statistics(tensions: &[f64]) -> [f64; 4] {
     [mean, square.sqrt(), smallest, largest]
 }
 
+/// Quantiles of tensions, linear between neighbouring values; NaN without linkers.
+fn quantiles(mut tensions: Vec<f64>) -> [f64; PERCENT.len()] {
+    tensions.sort_by(f64::total_cmp);
+    let Some(last) = tensions.len().checked_sub(1) else {
+        return [f64::NAN; PERCENT.len()];
+    };
+    PERCENT.map(|percent| {
+        let (below, rest) = (percent * last / 100, percent * last % 100);
+        let [lower, upper] = [below, last.min(below + 1)].map(|k| tensions[k]);
+        lower + (upper - lower) * rest as f64 / 100.0
+    })
+}
+
 /// Returns `-sum r f^T` over all points with the forces `f` of filaments, linkers between sites and contacts (pN nm).
 /// Linkers to periodic images and contacts with them add the displacement of the image times their force.
 ///
@@ -326,6 +348,7 @@ fn is_internal(assembly: &Assembly, part: Part) -> bool {
 mod tests {
     use super::super::tests::{build, observe, value};
     use super::cluster_sizes;
+    use super::quantiles;
     use crate::Assembly;
     use std::f64::consts::PI;
 
@@ -406,6 +429,10 @@ mod tests {
         // Sites at equal arc length are 12 nm apart, others further, up to the reach.
         assert!((column("linker_tension_smallest_pn") - 3.0).abs() < 1e-6);
         assert!(column("linker_tension_largest_pn") <= 12.0);
+        let median = column("linker_tension_p50_pn");
+        assert!(
+            median >= column("linker_tension_p25_pn") && median <= column("linker_tension_p75_pn")
+        );
         let [along, across] = [300.0_f64.powi(2) / 12.0, 3.0 / 7.0 * 144.0];
         let radius = (along + 2.0 * across).sqrt();
         assert!((column("gyration_radius_nm") - radius).abs() < 1e-6);
@@ -413,6 +440,19 @@ mod tests {
         // Cancellation in the gyration tensor: 1e-16 of 1e4 nm^2 relative to 60 nm^2.
         let mesh = (volume / 700.0).sqrt();
         assert!((column("mesh_size_nm") / mesh - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn quantiles_are_linear_between_values() {
+        let found = quantiles(vec![4.0, 1.0, 2.0, 3.0, 0.0]);
+        let exact = [0.2, 1.0, 2.0, 3.0, 3.8];
+        assert!(found.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-15));
+        assert!(
+            quantiles(vec![7.0])
+                .iter()
+                .all(|value| (value - 7.0).abs() < 1e-15)
+        );
+        assert!(quantiles(Vec::new()).iter().all(|value| value.is_nan()));
     }
 
     /// The virial is the derivative of the energy with respect to a uniform strain of all points.
