@@ -1,5 +1,6 @@
 //! Tests of reproducibility: independence of threads and agreement with the committed reports.
 
+use super::page::browser_tests::assert_page_works;
 use super::*;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -91,7 +92,9 @@ fn assert_current(out: &Path) {
 fn committed_numbers_are_reproduced() {
     let ids = EXPERIMENTS.map(|e| e.id);
     let rest: Vec<&str> = ids.into_iter().filter(|id| !CHEAP.contains(id)).collect();
-    assert_current(run(&rest, 2).path());
+    let folder = run(&rest, 2);
+    assert_current(folder.path());
+    assert_page_works(folder.path());
 }
 
 /// Compares processes with one and two threads. Guards against unordered results, unordered sums, unseeded random
@@ -100,6 +103,7 @@ fn committed_numbers_are_reproduced() {
 fn results_are_independent_of_threads() {
     let first = run(&CHEAP, 1);
     assert_current(first.path());
+    assert_page_works(first.path());
     let expected = files(first.path());
     let count = |kind: &str| expected.keys().filter(|name| name.ends_with(kind)).count();
     assert!(expected.contains_key("report.json"));

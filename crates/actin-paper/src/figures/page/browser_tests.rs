@@ -17,38 +17,21 @@ fn probed(browser: &Path, page: &str, mode: Mode, folder: &Path) -> Vec<Value> {
     chromium::probed(browser, (page, PROBE), &WIDTHS, mode, folder)
 }
 
-/// Artefacts that cover all kinds of pictures, views and tables.
-const KINDS: [&str; 8] = [
-    "fig1", "fig4", "fig6", "fig7", "fig8", "fig9", "table1", "table3",
-];
-const VIEWS: usize = 5;
-
-#[test]
-fn page_works_in_a_browser() {
+/// Asserts that the page in a folder of figures works; only where there is a browser.
+pub(in crate::figures) fn assert_page_works(folder: &Path) {
     let Some(browser) = browser() else {
         return;
     };
-    let folder = tempfile::tempdir().unwrap();
-    let options = crate::figures::Options {
-        ids: KINDS.map(String::from).into(),
-        out: folder.path().to_path_buf(),
-        quick: true,
-        threads: None,
-        fresh: false,
-        print: false,
-        palette: crate::figures::Palette::default(),
-    };
-    crate::figures::reproduce(&options, &|line| println!("{line}")).unwrap();
-    let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
+    let page = fs::read_to_string(folder.join("report.html")).unwrap();
+    let scratch = tempfile::tempdir().unwrap();
     for mode in [Mode::Light, Mode::Dark] {
-        let found = probed(&browser, &page, mode, folder.path());
+        let found = probed(&browser, &page, mode, scratch.path());
         for (width, found) in WIDTHS.iter().zip(&found) {
             assert_works(found, mode, *width);
-            let pictures = found["pictures"].as_array().unwrap();
-            assert_eq!(
-                pictures.len(),
-                page.matches("<div class=\"picture\"").count()
-            );
+            let number = |of: &str| found[of].as_array().unwrap().len();
+            let pictures = page.matches("<div class=\"picture\"").count();
+            let views = page.matches("<figure class=\"viewer\"><script").count();
+            assert_eq!([number("pictures"), number("views")], [pictures, views]);
         }
     }
 }
@@ -66,9 +49,7 @@ fn assert_works(found: &Value, mode: Mode, width: u32) {
         assert_eq!(picture["clipped"], serde_json::json!([]), "{width}");
         assert_legible(picture, mode);
     }
-    let views = found["views"].as_array().unwrap();
-    assert_eq!(views.len(), VIEWS);
-    for view in views {
+    for view in found["views"].as_array().unwrap() {
         assert_is_alive(view, width);
     }
 }
@@ -104,7 +85,8 @@ fn assert_is_alive(view: &Value, width: u32) {
     assert_eq!(view["after_reset"], 0, "{width}: {view}");
     assert!(count(&view["lines"]) > 1000, "{width}: {view}");
     let states = view["states"].as_array().unwrap();
-    assert!(states.len() >= 2, "{width}: {view}");
+    // Views of a single state have no menu.
+    assert!(states.len() != 1, "{width}: {view}");
     assert!(states.iter().all(|s| some.contains(&count(s))), "{view}");
     assert!(count(&view["legend"]) >= 2);
 }

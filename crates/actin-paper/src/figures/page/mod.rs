@@ -1,7 +1,7 @@
 //! Structure of `report.html`, a self-contained page. Its texts are in `data/page.ron`.
 
 #[cfg(test)]
-mod browser_tests;
+pub(super) mod browser_tests;
 mod misses;
 mod summary;
 mod texts;
