@@ -121,7 +121,7 @@ impl Components {
         self.selected = self.subset(components);
     }
 
-    /// Selects components and those that are coupled to them; all if couplings depend on distances.
+    /// Selects components and their coupled components. Couplings by distance select all components.
     pub(crate) fn select_with_neighbours(&mut self, mut components: Vec<bool>) {
         if self.are_everywhere.contains(&true) {
             components.fill(true);

@@ -38,8 +38,8 @@
 //!
 //! # Solution
 //! Newton's method uses the matrix `K + Z/h` plus the contribution of the stresses. The first
-//! iteration omits the geometric stiffness, and later ones omit it in components, such as
-//! rods, whose matrix is not positive definite. Friction is added to a component if its
+//! iteration omits the geometric stiffness, the second one omits it for springs, and later ones omit
+//! it in components, such as rods, whose matrix is not positive definite. Friction is added to a component if its
 //! iterations grow. A component counts as solved if its next iteration is predicted to change the
 //! energy by less than 1e-4 kT. If at most half of the components are unsolved, only
 //! these are iterated and the others are held. A step ends with an iteration of all components.

@@ -22,7 +22,7 @@ pub(crate) struct Band {
     starts: Vec<usize>,
     /// Columns of each panel, and the end of their rows.
     panels: Vec<(Range<usize>, usize)>,
-    /// Columns that are not coupled to others, as those of a filament.
+    /// Columns without coupling to other columns, for instance of one filament.
     blocks: Vec<Range<usize>>,
 }
 

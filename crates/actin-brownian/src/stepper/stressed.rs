@@ -59,8 +59,8 @@ impl Brownian {
         Err(self.failure(system, &self.progress.largest()))
     }
 
-    /// Returns `true` if the neighbours of components that have moved alone are still solved, and
-    /// reopens those that are not.
+    /// Returns `true` if the neighbours of components that have moved alone are still solved.
+    /// Unsolved neighbours are reopened.
     fn is_balanced(&mut self, system: &mut System, h: f64) -> bool {
         if self.components.selection().is_none() {
             return true;

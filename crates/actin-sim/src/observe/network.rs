@@ -429,10 +429,6 @@ mod tests {
         // Sites at equal arc length are 12 nm apart, others further, up to the reach.
         assert!((column("linker_tension_smallest_pn") - 3.0).abs() < 1e-6);
         assert!(column("linker_tension_largest_pn") <= 12.0);
-        let median = column("linker_tension_p50_pn");
-        assert!(
-            median >= column("linker_tension_p25_pn") && median <= column("linker_tension_p75_pn")
-        );
         let [along, across] = [300.0_f64.powi(2) / 12.0, 3.0 / 7.0 * 144.0];
         let radius = (along + 2.0 * across).sqrt();
         assert!((column("gyration_radius_nm") - radius).abs() < 1e-6);
@@ -445,8 +441,8 @@ mod tests {
     #[test]
     fn quantiles_are_linear_between_values() {
         let found = quantiles(vec![4.0, 1.0, 2.0, 3.0, 0.0]);
-        let exact = [0.2, 1.0, 2.0, 3.0, 3.8];
-        assert!(found.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-15));
+        let errors = found.iter().zip([0.2, 1.0, 2.0, 3.0, 3.8]);
+        assert!(errors.map(|(a, b)| (a - b).abs()).all(|e| e < 1e-15));
         assert!(
             quantiles(vec![7.0])
                 .iter()
