@@ -99,7 +99,7 @@ impl Progress {
     }
 
     /// Components whose motion has not been checked for its effects on others.
-    pub(crate) fn moved(&self) -> Vec<bool> {
+    pub(crate) fn moved_alone(&self) -> Vec<bool> {
         let components = self.components.iter();
         components.map(|component| component.has_moved).collect()
     }

@@ -335,9 +335,9 @@ impl Amplitudes {
 
     /// For a rest length of `ratio` thermal extensions `sqrt(kT/k)`.
     ///
-    /// A linker that relaxes in much less than a step gets the length `L + (s + |v|) / k`. The mean and the variance of
-    /// this length are those of the equilibrium density `d^2 exp(-E/kT)`. A linker that relaxes in about a step keeps
-    /// its direction, and the variances of `s` and of the component of `v` in this direction have the sum 1.
+    /// A linker that relaxes in much less than a step gets the length `L + (s + |v|) / k`. This length has the mean and the
+    /// variance of the equilibrium density `d^2 exp(-E/kT)`. A linker that relaxes in about a step keeps its direction, and
+    /// the variances of `s` and of the component of `v` in this direction have the sum 1.
     fn new(ratio: f64) -> Self {
         // Integrals of exp(-(x - ratio)^2 / 2), times x, times x^2 over positive x.
         let zeroth = (PI / 2.0).sqrt() * (1.0 + libm::erf(ratio * FRAC_1_SQRT_2));

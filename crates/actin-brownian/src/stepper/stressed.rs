@@ -66,7 +66,7 @@ impl Brownian {
             return true;
         }
         self.components
-            .select_with_neighbours(self.progress.moved());
+            .select_with_neighbours(self.progress.moved_alone());
         self.find_residual(system, h);
         let components = &self.components;
         let is_selected = |c| components.has_component(c);
