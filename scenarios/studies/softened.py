@@ -7,7 +7,8 @@ Needs numpy and matplotlib. From the folder of `actin sweep scenarios/studies/so
 import numpy as np
 import study
 
-BARE, SOFT, MIDDLE, CONSTANT, FITTED = range(5)
+BARE, SOFT, MIDDLE, CONSTANT, FITTED, HOMOGENISED = range(6)
+LAWS = {"Constant": CONSTANT, "Fitted": FITTED, "Homogenised": HOMOGENISED}
 BENDING, TWIST = 5.0, 10.0  # softening factors of the middle
 EDGES = np.array([50.0, 100.0])  # nm
 LISTED = [30.0, 60.0, 120.0, -30.0, -60.0, -120.0]  # turns in the table (deg)
@@ -16,7 +17,7 @@ LISTED = [30.0, 60.0, 120.0, -30.0, -60.0, -120.0]  # turns in the table (deg)
 def variant(row):
     sections = row["filament.sections"]
     if "Rod" in sections:
-        return FITTED if row["filament.rod.law"] == "Fitted" else CONSTANT
+        return LAWS[row["filament.rod.law"]]
     if sections.count("Ellipsoids") > 1:
         return MIDDLE
     return SOFT if "altered" in sections else BARE
@@ -94,7 +95,7 @@ def main():
             if turn not in LISTED or len(couples) < 2:
                 continue
             total = np.radians(turn)
-            runs = [found[kind, axis, turn][1] for kind in (MIDDLE, FITTED, CONSTANT)]
+            runs = [found[kind, axis, turn][1] for kind in (MIDDLE, HOMOGENISED, FITTED, CONSTANT)]
             s, angle = along(runs[0], axis)
             whole = s[-1] - s[0]
             own = expected(found, axis, np.sign(turn), abs(total), (whole - 50, 50), whole)
@@ -105,7 +106,7 @@ def main():
             if turn in shown:
                 colour = f"C{shown.index(turn)}"
                 panel.plot(s, np.degrees(study.smooth(s, angle, 8.0)), colour, label=f"monomers, {turn:+g}°")
-                rod = along(runs[1], axis)
+                rod = along(runs[2], axis)
                 panel.plot(rod[0], np.degrees(rod[1]), "o", color=colour, mfc="none", ms=3, label="rod, Fitted")
                 panel.plot(places, turn * beam, "k--", lw=0.8)
                 panel.plot(places[[0, -1]], [0, turn], "k:", lw=0.8)
@@ -115,7 +116,7 @@ def main():
         panel.legend(fontsize=7)
     study.save(figure, f"{options.figures}/softened.svg")
     study.put_table(options.page, ["end turned by", "deg", "softer all along by", "share of the middle: monomers",
-                                   "rod, `Fitted`", "rod, `Constant`", "each part by its own law",
+                                   "rod, `Homogenised`", "rod, `Fitted`", "rod, `Constant`", "each part by its own law",
                                    f"stepped beam, {BENDING:g} and {TWIST:g}"], lines, "softened")
 
 

@@ -72,15 +72,19 @@ impl RodMaterial {
     /// Multiplies the rigidities of all laws by the given factors.
     ///
     /// # Errors
-    /// If a factor is not positive and finite, or if the material is a potential and a factor
-    /// differs from 1.
+    /// If a factor is not positive and finite.
     pub fn softened(self, factors: &RigidityFactors) -> Result<Self, RodParameterError> {
         if *factors == RigidityFactors::default() {
             return Ok(self);
         }
         factors.validate()?;
-        let laws = self.replaceable(RodKey::Factor)?;
-        Ok(self.with_laws(laws.times(factors)))
+        Ok(match self.kind {
+            Kind::Laws(laws) => self.with_laws(laws.times(factors)),
+            Kind::Potential(law) => Self {
+                kind: Kind::Potential(law.softened(factors)),
+                ..self
+            },
+        })
     }
 
     /// Creates the material of a potential, such as [`Homogenised::mean_filament`].

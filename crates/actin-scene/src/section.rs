@@ -48,7 +48,9 @@ pub struct RodChanges {
     pub law: Option<RodLaw>,
     /// Rigidities; by default the rigidities of the filament. The same laws require the default material.
     pub material: Option<Material>,
-    /// Factor of the bending rigidity; positive. The `Homogenised` laws do not support factors.
+    /// Factor of the bending rigidity; positive. Under the `Homogenised` laws, equal factors multiply the energy; a
+    /// smaller factor of one deformation also moves its nonlinearity to larger strains. In a heat bath, factors multiply
+    /// the free energy of unaltered monomers.
     pub bend_rigidity_factor: f64,
     /// Factor of the twisting rigidity; positive.
     pub twist_rigidity_factor: f64,

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 /// Memory of the machine if the system does not report it (bytes).
 const ASSUMED: f64 = 8e9;
 
-/// Bytes per body or element during a motion and during an equilibrium.
+/// Bytes per body or element during `Dynamics` and during an equilibrium.
 ///
 /// Values are rounded up from the peak memory of `actin run` over the number of bodies, for 1e4 to
 /// 1e5 segments, 5000 to 20,000 filaments and 3000 to 6000 monomers.
@@ -46,7 +46,9 @@ impl BytesPerBody {
     fn of(self, task: &Task) -> f64 {
         match task {
             Task::Dynamics(_) => self.motion,
-            Task::Equilibrium(_) | Task::Brownian(_) => self.statics,
+            Task::Equilibrium(_) => self.statics,
+            // A second stepper checks the length of the steps.
+            Task::Brownian(_) => 2.0 * self.statics,
         }
     }
 }

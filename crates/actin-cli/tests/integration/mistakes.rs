@@ -4,7 +4,7 @@ use crate::common::{Workplace, code, stderr, stdout};
 use std::fs;
 use std::path::Path;
 
-const MISTAKES: [&str; 45] = [
+const MISTAKES: [&str; 44] = [
     "several-mistakes",
     "several-broken-rules",
     "filament-without-its-bracket",
@@ -30,7 +30,6 @@ const MISTAKES: [&str; 45] = [
     "non-finite-number",
     "linker-outside-the-filament",
     "negative-factor-of-a-rod",
-    "factors-of-a-potential",
     "arc-that-closes",
     "points-of-no-file",
     "unit-behind-a-number",

@@ -129,12 +129,16 @@ const STUDIES: [Study; 8] = [
 ];
 
 /// Scenes of measured networks, with changes for short runs.
-const NETWORKS: [(&str, &[&str]); 6] = [
+const NETWORKS: [(&str, &[&str]); 7] = [
     ("contraction-network", &["task.duration_ms=0.02"]),
     ("crossed-pair", &["task.duration_ms=0.1"]),
     ("fine-network", &[]),
     ("fine-network-heat", &["task.duration_ms=0.01"]),
     ("free-filaments", &["task.duration_ms=0.1"]),
+    (
+        "long-network",
+        &["task.duration_ms=0.02", "task.record_every_ns=2e3"],
+    ),
     ("network-heat", &["task.duration_ms=0.1"]),
 ];
 

@@ -27,7 +27,7 @@ impl Homogenised {
 
     pub(super) fn joint_jet(&self, kappa: Vector3) -> (Vector3, Matrix3) {
         let PotentialJet { loads, tangent, .. } = self.jet(&self.unsheared(kappa));
-        let [_, slope, bend] = self.form.natural_jet(kappa.z);
+        let [_, slope, bend] = self.natural_jet(kappa.z);
         // The length depends on the twist.
         let mut couple: Vector3 = loads.fixed_rows::<3>(0).into();
         couple.z += slope * loads[5];
@@ -40,7 +40,7 @@ impl Homogenised {
     }
 
     fn unsheared(&self, kappa: Vector3) -> SixVector {
-        let natural = self.form.natural_stretch(kappa.z);
+        let natural = self.natural_stretch(kappa.z);
         SixVector::new(kappa.x, kappa.y, kappa.z, 0.0, 0.0, natural)
     }
 }

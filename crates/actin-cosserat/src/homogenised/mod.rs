@@ -9,6 +9,7 @@ mod joint;
 mod mean_filament;
 mod polynomial;
 mod segment;
+mod softened;
 mod terms;
 mod twist_stability;
 
@@ -72,6 +73,8 @@ pub struct Homogenised {
     form: HomogenisedForm,
     coefficients: [Polynomial; Term::ALL.len()],
     range: StrainRange,
+    /// Factors of the strains in the terms; 1 by default, and always for stretch.
+    scales: SixVector,
     /// Same coefficients, in a form for first derivatives.
     unrolled: Potential,
 }
@@ -244,7 +247,8 @@ impl Homogenised {
             *polynomial = padded(&coefficients(term), term.degree() + 1)?;
         }
         Ok(Self {
-            unrolled: Potential::new(&form, &all),
+            unrolled: Potential::new(&form, &all, [1.0; 3]),
+            scales: SixVector::repeat(1.0),
             form,
             coefficients: all,
             range: StrainRange::UNBOUNDED,
@@ -270,6 +274,7 @@ impl Homogenised {
 
     /// Energy per rest length (pN).
     pub fn energy_density(&self, strain: &SixVector) -> f64 {
+        let strain = &strain.component_mul(&self.scales);
         let factors = Factors::at(self.form.invariants(strain));
         let [t, ..] = bounded_twist(strain[2]);
         let terms = Term::ALL.into_iter().zip(&self.coefficients);
@@ -294,7 +299,26 @@ impl Homogenised {
 
     /// Energy, loads and tangent.
     pub fn jet(&self, strain: &SixVector) -> PotentialJet {
-        self.form.by_strain(strain, &self.sum(strain))
+        let strain = &strain.component_mul(&self.scales);
+        let jet = self.form.by_strain(strain, &self.sum(strain));
+        PotentialJet {
+            loads: jet.loads.component_mul(&self.scales),
+            tangent: jet
+                .tangent
+                .component_mul(&(self.scales * self.scales.transpose())),
+            ..jet
+        }
+    }
+
+    /// Stretch of the straight rod without force at a twist (rad/nm).
+    pub fn natural_stretch(&self, twist: f64) -> f64 {
+        self.form.natural_stretch(self.scales[2] * twist)
+    }
+
+    fn natural_jet(&self, twist: f64) -> Jet {
+        let scale = self.scales[2];
+        let [value, slope, bend] = self.form.natural_jet(scale * twist);
+        [value, scale * slope, scale * scale * bend]
     }
 
     fn sum(&self, strain: &SixVector) -> InvariantJet {

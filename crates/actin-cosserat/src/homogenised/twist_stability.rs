@@ -26,7 +26,7 @@ impl Homogenised {
 
     /// Stretch without axial force at given shear and bending.
     fn free_stretch(&self, sigma: Vector3, kappa: Vector3) -> f64 {
-        let natural = self.form.natural_stretch(kappa.z);
+        let natural = self.natural_stretch(kappa.z);
         let [mut least, mut most] = [natural - REACH.0, natural + REACH.0];
         for _ in 0..2 * HALVINGS {
             let middle = 0.5 * (least + most);

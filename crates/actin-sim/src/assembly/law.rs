@@ -59,12 +59,9 @@ impl Law {
 
     /// Applies factors of rigidities and a rest shape.
     fn altered(self, altered: &RodChanges, key: &str) -> Result<Self, SceneProblem> {
-        let softened = self.material.softened(&altered.factors()).map_err(|_| {
-            let rule =
-                "this law has no separate rigidities: remove the factors, or write law: Constant";
-            SceneProblem::new(key, "", rule)
-        })?;
-        let material = softened.with_rest_curvature(altered.rest_curvature());
+        let softened = self.material.softened(&altered.factors());
+        let material =
+            softened.and_then(|material| material.with_rest_curvature(altered.rest_curvature()));
         let material = material.map_err(|error| {
             SceneProblem::new(key, error.value, format!("must be {}", error.rule))
         })?;

@@ -403,7 +403,7 @@ fn strains<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vec
         let middles = rod.layout.element_positions();
         (0..rod.layout.segments()).map(move |k| {
             let (mut sigma, kappa) = watch.strains(rod, k, state);
-            sigma.z -= law.form().natural_stretch(kappa.z - rod.ranges.rest.z);
+            sigma.z -= law.natural_stretch(kappa.z - rod.ranges.rest.z);
             (middles[k], sigma)
         })
     })

@@ -1,7 +1,7 @@
 //! Warnings on the validity and accuracy of rod laws.
 
-use crate::scene::{Filament, Material, Monomers, RodLaw, RodModel};
-use actin_cosserat::Homogenised;
+use crate::scene::{Filament, Material, Monomers, RodChanges, RodLaw, RodModel};
+use actin_cosserat::{Homogenised, RigidityFactors};
 
 /// Persistence length (um) and twisting rigidity (pN nm^2) of free filaments of 110 nm at 298 K,
 /// from rotations between cross-sections 22 to 66 nm apart. Standard errors are 0.1 um and 50 pN
@@ -38,8 +38,28 @@ pub(super) fn notes(filament: &Filament, bath_k: Option<f64>) -> Vec<String> {
         let others = is_of_others(&rod, &filament.monomers).then(|| OF_OTHERS.to_owned());
         law.into_iter().chain(bonds).chain(others)
     };
-    filament.rod_models().flat_map(of_rod).collect()
+    let of_altered =
+        (bath_k.is_some() && is_softened(filament)).then(|| SOFTENED_IN_BATH.to_owned());
+    filament
+        .rod_models()
+        .flat_map(of_rod)
+        .chain(of_altered)
+        .collect()
 }
+
+/// Returns `true` if a section multiplies the rigidities of a free energy.
+fn is_softened(filament: &Filament) -> bool {
+    let mut sections = filament.sections.iter();
+    sections.any(|section| {
+        let is_altered = |altered: &RodChanges| altered.factors() != RigidityFactors::default();
+        let law = section.rod_model(&filament.rod).law;
+        section.altered_rod().is_some_and(is_altered)
+            && matches!(law, RodLaw::Homogenised | RodLaw::HomogenisedAt298K)
+    })
+}
+
+const SOFTENED_IN_BATH: &str = "rods with the law Homogenised in a heat bath and factors of rigidities: the factors multiply the free energy of \
+    unaltered monomers. Its thermal part would not become smaller with softer bonds: resolve the section as monomers to check";
 
 /// Largest difference (K) between the temperatures of the free energy and of the bath without a
 /// warning. The thermal part of the free energy is then wrong by up to 3.5 %.
@@ -168,6 +188,16 @@ mod tests {
         let heated = notes(filament, BATH);
         assert_eq!(heated.len(), 1, "{heated:?}");
         assert!(heated[0].starts_with("rods with the law Fitted in a heat bath"));
+    }
+
+    #[test]
+    fn factors_of_a_free_energy_are_noted() {
+        let filament = "Filament(sections: [
+            Rod(from_nm: 0.0, to_nm: 80.0),
+            Rod(from_nm: 80.0, to_nm: 160.0, altered: (twist_rigidity_factor: 0.1)),
+        ])";
+        assert_eq!(notes(filament, BATH), [SOFTENED_IN_BATH]);
+        assert!(notes(filament, "").is_empty());
     }
 
     #[test]

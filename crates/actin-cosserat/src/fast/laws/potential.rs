@@ -13,6 +13,8 @@ use actin_mechanics::wide::{Scalar, Simd, Wide3};
 /// Joints have the terms of curvature alone. These cancel in segments, whose energy is `W - U`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Potential {
+    /// Factors of bending, twist and shear before the terms are evaluated.
+    scales: [f64; 3],
     rest: f64,
     natural: [f64; 10],
     any_stretch: [f64; 1],
@@ -44,8 +46,13 @@ pub(crate) struct Potential {
 }
 
 impl Potential {
-    pub(crate) fn new(form: &HomogenisedForm, terms: &[Polynomial; Term::ALL.len()]) -> Self {
+    pub(crate) fn new(
+        form: &HomogenisedForm,
+        terms: &[Polynomial; Term::ALL.len()],
+        scales: [f64; 3],
+    ) -> Self {
         Self {
+            scales,
             rest: form.rest(),
             natural: std::array::from_fn(|k| form.natural()[k]),
             any_stretch: of(terms, Term::AnyStretch),
@@ -82,11 +89,31 @@ impl Potential {
     /// Torque (pN nm) of a twist (rad/nm) without bending.
     #[inline]
     pub(crate) fn twisting(&self, k: f64) -> f64 {
+        let [_, by, _] = self.scales;
+        let k = by * k;
         let root = k.mul_add(k, TWIST_SIZE * TWIST_SIZE).sqrt();
         let (t, ratio) = (k / root, TWIST_SIZE / root);
         let [twist, slope] = jet(Scalar, &self.twist, t);
         let by_t = slope * k * k * ratio * ratio / root;
-        2.0 * twist * k + self.turn[0] + by_t
+        by * (2.0 * twist * k + self.turn[0] + by_t)
+    }
+
+    /// Scales the curvature and the twist, or their torques.
+    #[inline(always)]
+    fn scaled<S: Simd>(&self, simd: S, [x, y, z]: Wide3<S>) -> Wide3<S> {
+        let [bend, twist, _] = self.scales.map(|scale| simd.splat_f64s(scale));
+        [
+            simd.mul_f64s(bend, x),
+            simd.mul_f64s(bend, y),
+            simd.mul_f64s(twist, z),
+        ]
+    }
+
+    /// Scales the shear, or its forces.
+    #[inline(always)]
+    fn scaled_shear<S: Simd>(&self, simd: S, [x, y, z]: Wide3<S>) -> Wide3<S> {
+        let shear = simd.splat_f64s(self.scales[2]);
+        [simd.mul_f64s(shear, x), simd.mul_f64s(shear, y), z]
     }
 }
 
@@ -204,6 +231,7 @@ impl Law for Potential {
 
     #[inline(always)]
     fn bending<S: Simd>(&self, simd: S, kappa: Wide3<S>) -> Wide3<S> {
+        let kappa = self.scaled(simd, kappa);
         let [x, y, k] = kappa;
         let a = squared(simd, kappa);
         let roots = Roots::new(simd, a, k);
@@ -222,13 +250,18 @@ impl Law for Potential {
         by_t = simd.mul_add_e_f64s(root_slope, bent.root[0], by_t);
         let by_k = simd.mul_add_e_f64s(twice(simd, twist), k, simd.splat_f64s(self.turn[0]));
         let about = simd.mul_add_e_f64s(by_t, slope, by_k);
-        [simd.mul_f64s(x, by_a), simd.mul_f64s(y, by_a), about]
+        self.scaled(
+            simd,
+            [simd.mul_f64s(x, by_a), simd.mul_f64s(y, by_a), about],
+        )
     }
 
     #[inline(always)]
     fn segment<S: Simd>(&self, simd: S, sigma: Wide3<S>, kappa: Wide3<S>) -> [Wide3<S>; 2] {
+        let (sigma, kappa) = (self.scaled_shear(simd, sigma), self.scaled(simd, kappa));
         let strained = StrainTerms::new(simd, self, sigma, kappa);
-        strained.loads(simd, self, sigma, kappa)
+        let [force, couple] = strained.loads(simd, self, sigma, kappa);
+        [self.scaled_shear(simd, force), self.scaled(simd, couple)]
     }
 }
 

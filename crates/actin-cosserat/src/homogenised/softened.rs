@@ -1,0 +1,130 @@
+//! Potentials of altered rods.
+
+use super::{Homogenised, Potential, SixVector, StrainRange};
+use crate::RigidityFactors;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
+impl Homogenised {
+    /// Potential of a rod whose rigidities are multiplied by factors `f`:
+    ///
+    /// ```text
+    /// U(x) = f_stretch W(x_i sqrt(f_i / f_stretch))
+    /// ```
+    ///
+    /// Equal factors multiply the energy, as for softer bonds of the same shape. A smaller factor of one deformation
+    /// also moves its nonlinearity to larger strains.
+    pub(crate) fn softened(&'static self, factors: &RigidityFactors) -> &'static Self {
+        // Leaked on purpose: see `sampled_filament`.
+        static LAWS: Mutex<BTreeMap<(usize, [u64; 4]), &'static Homogenised>> =
+            Mutex::new(BTreeMap::new());
+        let RigidityFactors {
+            shear,
+            stretch,
+            bend,
+            twist,
+        } = *factors;
+        let bits = [shear, stretch, bend, twist].map(f64::to_bits);
+        let mut laws = LAWS.lock().unwrap_or_else(PoisonError::into_inner);
+        let law = laws.entry((std::ptr::from_ref(self) as usize, bits));
+        law.or_insert_with(|| {
+            let scales = [bend, twist, shear].map(|factor| (factor / stretch).sqrt());
+            Box::leak(Box::new(self.scaled(stretch, scales)))
+        })
+    }
+
+    fn scaled(&self, energy: f64, [bend, twist, shear]: [f64; 3]) -> Self {
+        let coefficients = self
+            .coefficients
+            .map(|polynomial| polynomial.map(|coefficient| energy * coefficient));
+        let range = StrainRange {
+            twist: self.range.twist / twist,
+            curvature: self.range.curvature / bend,
+            shear: self.range.shear / shear,
+            ..self.range
+        };
+        Self {
+            form: self.form.clone(),
+            unrolled: Potential::new(&self.form, &coefficients, [bend, twist, shear]),
+            scales: SixVector::new(bend, bend, twist, shear, shear, 1.0),
+            coefficients,
+            range,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn factors(shear: f64, stretch: f64, bend: f64, twist: f64) -> RigidityFactors {
+        RigidityFactors {
+            shear,
+            stretch,
+            bend,
+            twist,
+        }
+    }
+
+    /// Rounding of sums of about a hundred terms.
+    #[test]
+    fn equal_factors_multiply_the_energy() {
+        let law = Homogenised::mean_filament();
+        let half = law.softened(&factors(0.5, 0.5, 0.5, 0.5));
+        let strain = SixVector::new(2e-3, -1e-3, 8e-3, 5e-3, 2e-3, 1e-3);
+        let (whole, jet) = (law.jet(&strain), half.jet(&strain));
+        assert!((jet.energy - 0.5 * whole.energy).abs() < 1e-13 * whole.energy);
+        assert!((jet.loads - 0.5 * whole.loads).amax() < 1e-13 * whole.loads.amax());
+        assert!((half.loads(&strain) - jet.loads).amax() < 1e-11 * jet.loads.amax());
+    }
+
+    #[test]
+    fn each_factor_multiplies_its_rigidity_at_rest() {
+        for law in [
+            Homogenised::mean_filament(),
+            Homogenised::heated_rod(10.0).unwrap(),
+        ] {
+            let rest = SixVector::ith(5, law.natural_stretch(0.0));
+            let [shear, stretch, bend, twist] = [0.9, 0.7, 0.2, 0.1];
+            let altered = law.softened(&factors(shear, stretch, bend, twist));
+            let tangents = [law, altered].map(|law| law.tangent(&rest));
+            let expected = [bend, bend, twist, shear, shear, stretch];
+            for (k, factor) in expected.into_iter().enumerate() {
+                let found = tangents[1][(k, k)] / tangents[0][(k, k)];
+                // The natural length depends on the twist, with the rigidity of stretch.
+                let is_twist = k == 2;
+                assert!(
+                    is_twist || (found / factor - 1.0).abs() < 1e-12,
+                    "{k}: {found}"
+                );
+            }
+            let joint =
+                [law, altered].map(|law| law.joint_tangent(nalgebra::Vector3::zeros())[(2, 2)]);
+            assert!((joint[1] / joint[0] / twist - 1.0).abs() < 1e-12);
+        }
+    }
+
+    /// The bounds are the truncation of central differences over 1e-5.
+    #[test]
+    fn loads_and_tangent_are_derivatives() {
+        let law = Homogenised::mean_filament().softened(&factors(0.6, 0.8, 0.2, 0.1));
+        for n in 0..40 {
+            let size = SixVector::new(0.01, 0.01, 0.04, 0.05, 0.05, 8e-3);
+            let strain = SixVector::from_fn(|k, _| (3.7 * f64::from(n) + 2.3 * k as f64).sin());
+            let strain = strain.component_mul(&size);
+            let (loads, tangent) = (law.loads(&strain), law.tangent(&strain));
+            for k in 0..6 {
+                let step = SixVector::ith(k, 1e-5);
+                let (more, less) = (strain + step, strain - step);
+                let slope = (law.energy_density(&more) - law.energy_density(&less)) / 2e-5;
+                assert!(
+                    (loads[k] - slope).abs() < 1e-4 * loads.amax().max(1.0),
+                    "{k}"
+                );
+                let column = (law.loads(&more) - law.loads(&less)) / 2e-5;
+                let difference = (tangent.column(k) - column).amax();
+                assert!(difference < 1e-4 * tangent.amax(), "{k}: {difference}");
+            }
+        }
+    }
+}
