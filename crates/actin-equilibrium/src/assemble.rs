@@ -140,11 +140,6 @@ impl Assembly {
         is_new
     }
 
-    /// Releases the memory of the blocks of all parts, where only [`update_nodes`](Self::update_nodes) follows.
-    pub(crate) fn release_blocks(&mut self) {
-        self.blocks = Stiffness::default();
-    }
-
     fn lengths(&self) -> [usize; 2] {
         [self.blocks.blocks().len(), self.blocks.links().len()]
     }

@@ -134,9 +134,6 @@ impl ImplicitSolver {
         if is_new {
             self.begin_pattern();
         }
-        if !is_same {
-            self.assembly.release_blocks();
-        }
         let columns = match selection {
             Some(selection) if !is_new => self.clusters.columns(&self.layout, selection.components),
             _ => std::iter::once(0..self.layout.unknowns()).collect(),
