@@ -117,7 +117,9 @@ class Altered(Part):
 class AlteredRod(Part):
     """Parameters of a rod that differ from `rod` of the filament.
 
-    - `bend_rigidity_factor`: Factor of the bending rigidity; positive. The `Homogenised` laws do not support factors. Default: 1.0.
+    - `bend_rigidity_factor`: Factor of the bending rigidity; positive. Under the `Homogenised` laws, equal factors multiply the energy; a
+    smaller factor of one deformation also moves its nonlinearity to larger strains. In a heat bath, factors multiply
+    the free energy of unaltered monomers. Default: 1.0.
     - `law`: Constitutive law; by default the law of the filament. Default: None.
     - `material`: Rigidities; by default the rigidities of the filament. The same laws require the default material. Default: None.
     - `rest_curvature_per_nm`: Rest curvature about the transverse axes d1 and d2, which are x and y for a filament along lab z;
