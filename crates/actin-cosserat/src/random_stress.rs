@@ -165,12 +165,10 @@ fn write_extended(
     (extended, rod): (&ExtendedSegments, &EnergyGradient),
     state: &State,
     stresses: &mut [f64],
-    of: impl Fn(&SegmentJet, &RodMaterial, &SegmentSurroundings, &[f64]) -> [Vector3; 3],
+    of: impl Fn(&SegmentSurroundings, &[f64]) -> [Vector3; 3],
 ) {
-    let (layout, material) = (rod.layout(), rod.material());
     for (k, stress) in stresses.chunks_exact_mut(EXTENDED).enumerate() {
-        let (jet, around) = extended.jet((layout, material), k, state);
-        let values = of(&jet, material, &around, stress);
+        let values = of(&extended.surroundings(k, rod.layout(), state), stress);
         for (place, value) in stress.chunks_exact_mut(VECTOR).zip(values) {
             place.copy_from_slice(value.as_slice());
         }
@@ -199,24 +197,20 @@ impl RandomStress for EnergyGradient {
                 },
             );
         };
-        write_extended(
-            (extended, self),
-            state,
-            stresses,
-            |jet, material, around, xi| {
-                let (_, bending) = around.bending(material);
-                let mut jet = *jet;
-                jet.by_curvature += bending * around.covered;
-                let scale = kt / around.length;
-                let [force, couple] = drawn_together(&jet, scale, xi);
-                let difference = if around.has_two_sides {
-                    drawn(bending * scale, &xi[2 * VECTOR..])
-                } else {
-                    Vector3::zeros()
-                };
-                [force, couple - difference, couple + difference]
-            },
-        );
+        let material = self.material();
+        write_extended((extended, self), state, stresses, |around, xi| {
+            let bending = around.bending_tangent(material);
+            let mut jet = extended.law.jet(material, around.strain, around.curvature);
+            jet.by_curvature += bending * around.curvature.covered;
+            let scale = kt / around.length;
+            let [force, couple] = drawn_together(&jet, scale, xi);
+            let difference = if around.has_two_sides {
+                drawn(bending * scale, &xi[2 * VECTOR..])
+            } else {
+                Vector3::zeros()
+            };
+            [force, couple - difference, couple + difference]
+        });
     }
 
     fn balance(&self, state: &State, stresses: &mut [f64]) {
@@ -229,15 +223,14 @@ impl RandomStress for EnergyGradient {
                 |material, kappa, _, _| material.bending_couple(kappa),
             );
         };
-        write_extended(
-            (extended, self),
-            state,
-            stresses,
-            |jet, material, around, _| {
-                let couple = jet.couple + around.bending(material).0 * around.covered;
-                [jet.force, couple, couple]
-            },
-        );
+        let material = self.material();
+        write_extended((extended, self), state, stresses, |around, _| {
+            let (force, own) = extended
+                .law
+                .loads(material, around.strain, around.curvature);
+            let couple = own + around.bending_couple(material) * around.curvature.covered;
+            [force, couple, couple]
+        });
     }
 
     fn axial_frames(&self) -> Range<usize> {

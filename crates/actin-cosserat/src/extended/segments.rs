@@ -42,26 +42,35 @@ impl Segment<'_> {
 pub(crate) struct SegmentSurroundings {
     /// Rest length (nm).
     pub(crate) length: f64,
-    /// Mean curvature (rad/nm).
-    pub(crate) curvature: Vector3,
-    /// Share of the length covered by bending elements.
-    pub(crate) covered: f64,
+    pub(crate) strain: Vector3,
+    pub(crate) curvature: MeanCurvature,
     pub(crate) has_two_sides: bool,
     /// Elements near blocked ends with their weights in the mean.
     ends: Vec<(EndTwist, f64)>,
 }
 
 impl SegmentSurroundings {
-    /// Mean bending torque (pN nm) and tangent (pN nm^2) of the surrounding elements.
-    pub(crate) fn bending(&self, material: &RodMaterial) -> (Vector3, Matrix3) {
-        let beyond = self.curvature.z - material.rest_curvature().z;
-        let mut couple = material.bending_couple(self.curvature);
-        let mut tangent = material.bending_tangent(self.curvature);
+    /// Twist (rad/nm) relative to rest.
+    fn beyond(&self, material: &RodMaterial) -> f64 {
+        self.curvature.kappa.z - material.rest_curvature().z
+    }
+
+    /// Mean torque (pN nm) of the surrounding bending elements.
+    pub(crate) fn bending_couple(&self, material: &RodMaterial) -> Vector3 {
+        let mut couple = material.bending_couple(self.curvature.kappa);
         for (end, share) in &self.ends {
-            couple.z += share * end.couple(material, beyond);
-            tangent[(2, 2)] += share * end.tangent(material, beyond);
+            couple.z += share * end.couple(material, self.beyond(material));
         }
-        (couple, tangent)
+        couple
+    }
+
+    /// Mean tangent (pN nm^2) of the surrounding bending elements.
+    pub(crate) fn bending_tangent(&self, material: &RodMaterial) -> Matrix3 {
+        let mut tangent = material.bending_tangent(self.curvature.kappa);
+        for (end, share) in &self.ends {
+            tangent[(2, 2)] += share * end.tangent(material, self.beyond(material));
+        }
+        tangent
     }
 }
 
@@ -95,26 +104,24 @@ impl ExtendedSegments {
         })
     }
 
-    pub(crate) fn jet(
+    pub(crate) fn surroundings(
         &self,
-        (layout, material): (&RodLayout, &RodMaterial),
         k: usize,
+        layout: &RodLayout,
         state: &State,
-    ) -> (SegmentJet, SegmentSurroundings) {
+    ) -> SegmentSurroundings {
         let segment = self.segment(k, layout, state);
-        let jet = self.law.jet(material, segment.strain(), segment.curvature);
         let mut sides = self.side_elements(k, layout).map(|beside| beside.side);
         let first = sides.next();
-        let around = SegmentSurroundings {
+        SegmentSurroundings {
             length: segment.element.rest_length,
-            curvature: segment.curvature.kappa,
-            covered: segment.curvature.covered,
+            strain: segment.strain(),
+            curvature: segment.curvature,
             has_two_sides: sides.any(|side| Some(side) != first),
             ends: (segment.around.iter())
                 .filter_map(|a| Some((*self.curvature.end_twist(a.frames)?, a.share)))
                 .collect(),
-        };
-        (jet, around)
+        }
     }
 
     #[inline]

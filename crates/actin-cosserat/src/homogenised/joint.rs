@@ -4,7 +4,9 @@
 //! Joints use each angle between neighbouring segments, so `U` resists rotations of alternating
 //! sign, which cancel in the mean curvature of segments (`segment.rs`).
 
-use super::{Homogenised, PotentialJet, SixVector};
+use super::polynomial::{bounded_twist, polynomial};
+use super::terms::{CURVATURE, bounded_square, root};
+use super::{Homogenised, SixVector, Term};
 use crate::fast::Law;
 use actin_mechanics::wide::Scalar;
 use actin_mechanics::{Matrix3, Vector3};
@@ -25,18 +27,42 @@ impl Homogenised {
         self.joint_jet(kappa).1
     }
 
+    /// Torque (pN nm) and its derivative: all terms of extension and shear vanish at the natural
+    /// length.
     pub(super) fn joint_jet(&self, kappa: Vector3) -> (Vector3, Matrix3) {
-        let PotentialJet { loads, tangent, .. } = self.jet(&self.unsheared(kappa));
-        let [_, slope, bend] = self.natural_jet(kappa.z);
-        // The length depends on the twist.
-        let mut couple: Vector3 = loads.fixed_rows::<3>(0).into();
-        couple.z += slope * loads[5];
-        let mut of_curvature: Matrix3 = tangent.fixed_view::<3, 3>(0, 0).into();
-        let with_length: Vector3 = tangent.fixed_view::<3, 1>(0, 5).into();
-        let crossed = slope * with_length * Vector3::z().transpose();
-        of_curvature += crossed + crossed.transpose();
-        of_curvature[(2, 2)] += slope * slope * tangent[(5, 5)] + bend * loads[5];
-        (couple, of_curvature)
+        let scales: Vector3 = self.scales.fixed_rows::<3>(0).into();
+        let kappa = kappa.component_mul(&scales);
+        let (a, k) = (kappa.xy().norm_squared(), kappa.z);
+        let t = bounded_twist(k);
+        let by_twist = |term| polynomial(self.coefficients(term), t);
+        let (twist, any_bend) = (by_twist(Term::Twist), self.coefficients(Term::AnyBend)[0]);
+        let mut by_a = [any_bend, 0.0];
+        let mut by_k = [
+            2.0 * twist[0] * k + twist[1] * k * k + self.coefficients(Term::Turn)[0],
+            2.0 * twist[0] + 4.0 * twist[1] * k + twist[2] * k * k,
+        ];
+        let mut mixed = 0.0;
+        let bent = [
+            (Term::Bend, bounded_square(a, CURVATURE)),
+            (Term::BendRoot, root(a)),
+        ];
+        for (term, [value, slope, bend]) in bent {
+            let p = by_twist(term);
+            by_a = [by_a[0] + p[0] * slope, by_a[1] + p[0] * bend];
+            by_k = [by_k[0] + p[1] * value, by_k[1] + p[2] * value];
+            mixed += p[1] * slope;
+        }
+        let gradient = Vector3::new(2.0 * kappa.x, 2.0 * kappa.y, 0.0);
+        let mut couple = by_a[0] * gradient;
+        couple.z = by_k[0];
+        let with_twist = (mixed * gradient) * Vector3::z().transpose();
+        let mut tangent = by_a[1] * gradient * gradient.transpose();
+        tangent += with_twist + with_twist.transpose();
+        tangent += Matrix3::from_diagonal(&Vector3::new(2.0 * by_a[0], 2.0 * by_a[0], by_k[1]));
+        (
+            couple.component_mul(&scales),
+            tangent.component_mul(&(scales * scales.transpose())),
+        )
     }
 
     fn unsheared(&self, kappa: Vector3) -> SixVector {

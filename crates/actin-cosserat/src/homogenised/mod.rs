@@ -26,7 +26,7 @@ use nalgebra::{Matrix6, Vector6};
 use polynomial::{DEGREE, bounded_twist, polynomial, value_of};
 pub(crate) use segment::STRAIGHT;
 use segment::joined;
-use terms::{BY_TWIST, Factors, InvariantJet, Invariants, Jet};
+use terms::{BY_TWIST, InvariantJet, Invariants, Jet, TermSum, Variables, values};
 
 /// Strains `kappa_1`, `kappa_2`, `kappa_3` (rad/nm), `sigma_1`, `sigma_2`, `sigma_3`, or torques
 /// (pN nm) and forces (pN), body axes.
@@ -170,10 +170,14 @@ impl HomogenisedForm {
     /// The potential is linear in its coefficients.
     pub fn units(&self, term: Term, strain: &SixVector) -> Vec<PotentialJet> {
         let [t, slope, bend] = bounded_twist(strain[2]);
-        let jet = term.jet(&Factors::at(self.invariants(strain)));
+        let natural = self.natural_jet(strain[2]);
+        let variables = Variables::at(invariants(strain, natural[0]));
+        let mut sum = TermSum::new();
+        sum.add(term, [1.0, 0.0, 0.0], &variables);
+        let jet = sum.by_invariants(&variables);
         let mut power = [1.0, 0.0, 0.0];
         let units = (0..=term.degree()).map(|_| {
-            let unit = self.by_strain(strain, &jet.times(BY_TWIST, power));
+            let unit = by_strain(strain, natural, &jet.times_twist(power));
             let [p, dp, ddp] = power;
             power = [
                 p * t,
@@ -184,50 +188,49 @@ impl HomogenisedForm {
         });
         units.collect()
     }
+}
 
-    /// `e`, `a`, `g`, `c`, `kappa_3`.
-    fn invariants(&self, s: &SixVector) -> Invariants {
-        [
-            s[5] - self.natural_stretch(s[2]),
-            s[0] * s[0] + s[1] * s[1],
-            s[3] * s[3] + s[4] * s[4],
-            s[0] * s[3] + s[1] * s[4],
-            s[2],
-        ]
+/// `e`, `a`, `g`, `c`, `kappa_3`.
+fn invariants(s: &SixVector, natural_stretch: f64) -> Invariants {
+    [
+        s[5] - natural_stretch,
+        s[0] * s[0] + s[1] * s[1],
+        s[3] * s[3] + s[4] * s[4],
+        s[0] * s[3] + s[1] * s[4],
+        s[2],
+    ]
+}
+
+/// Converts derivatives with respect to invariants to derivatives with respect to strains.
+fn by_strain(s: &SixVector, [_, slope, bend]: Jet, jet: &InvariantJet) -> PotentialJet {
+    // Gradients of the invariants.
+    let rows = [
+        SixVector::new(0.0, 0.0, -slope, 0.0, 0.0, 1.0),
+        SixVector::new(2.0 * s[0], 2.0 * s[1], 0.0, 0.0, 0.0, 0.0),
+        SixVector::new(0.0, 0.0, 0.0, 2.0 * s[3], 2.0 * s[4], 0.0),
+        SixVector::new(s[3], s[4], 0.0, s[0], s[1], 0.0),
+        SixVector::ith(2, 1.0),
+    ];
+    let mut loads = SixVector::zeros();
+    let mut tangent = Matrix6::zeros();
+    for (row, (first, second)) in rows.iter().zip(jet.first.iter().zip(&jet.second)) {
+        loads += *first * row;
+        let others = rows.iter().zip(second);
+        let column: SixVector = others.map(|(other, x)| *x * other).sum();
+        tangent += row * column.transpose();
     }
-
-    /// Converts derivatives with respect to invariants to derivatives with respect to strains.
-    fn by_strain(&self, s: &SixVector, jet: &InvariantJet) -> PotentialJet {
-        let [_, slope, bend] = self.natural_jet(s[2]);
-        // Gradients of the invariants.
-        let rows = [
-            SixVector::new(0.0, 0.0, -slope, 0.0, 0.0, 1.0),
-            SixVector::new(2.0 * s[0], 2.0 * s[1], 0.0, 0.0, 0.0, 0.0),
-            SixVector::new(0.0, 0.0, 0.0, 2.0 * s[3], 2.0 * s[4], 0.0),
-            SixVector::new(s[3], s[4], 0.0, s[0], s[1], 0.0),
-            SixVector::ith(2, 1.0),
-        ];
-        let mut loads = SixVector::zeros();
-        let mut tangent = Matrix6::zeros();
-        for (row, (first, second)) in rows.iter().zip(jet.first.iter().zip(&jet.second)) {
-            loads += *first * row;
-            let others = rows.iter().zip(second);
-            let column: SixVector = others.map(|(other, x)| *x * other).sum();
-            tangent += row * column.transpose();
-        }
-        let [e, a, g, c, _] = jet.first;
-        tangent[(2, 2)] -= bend * e;
-        for k in 0..2 {
-            tangent[(k, k)] += 2.0 * a;
-            tangent[(k + 3, k + 3)] += 2.0 * g;
-            tangent[(k, k + 3)] += c;
-            tangent[(k + 3, k)] += c;
-        }
-        PotentialJet {
-            energy: jet.value,
-            loads,
-            tangent: 0.5 * (tangent + tangent.transpose()),
-        }
+    let [e, a, g, c, _] = jet.first;
+    tangent[(2, 2)] -= bend * e;
+    for k in 0..2 {
+        tangent[(k, k)] += 2.0 * a;
+        tangent[(k + 3, k + 3)] += 2.0 * g;
+        tangent[(k, k + 3)] += c;
+        tangent[(k + 3, k)] += c;
+    }
+    PotentialJet {
+        energy: jet.value,
+        loads,
+        tangent: 0.5 * (tangent + tangent.transpose()),
     }
 }
 
@@ -267,19 +270,16 @@ impl Homogenised {
 
     /// Coefficients of a term, lowest order first.
     pub fn coefficients(&self, term: Term) -> &[f64] {
-        let mut all = Term::ALL.into_iter().zip(&self.coefficients);
-        let found = all.find(|(other, _)| *other == term);
-        found.map_or(&[], |(_, polynomial)| &polynomial[..=term.degree()])
+        &self.coefficients[term as usize][..=term.degree()]
     }
 
     /// Energy per rest length (pN).
     pub fn energy_density(&self, strain: &SixVector) -> f64 {
         let strain = &strain.component_mul(&self.scales);
-        let factors = Factors::at(self.form.invariants(strain));
+        let values = values(invariants(strain, self.form.natural_stretch(strain[2])));
         let [t, ..] = bounded_twist(strain[2]);
-        let terms = Term::ALL.into_iter().zip(&self.coefficients);
-        terms.fold(0.0, |sum, (term, coefficients)| {
-            sum + term.value(&factors) * value_of(&coefficients[..], t)
+        Term::ALL.into_iter().fold(0.0, |sum, term| {
+            sum + term.value(&values) * value_of(self.coefficients(term), t)
         })
     }
 
@@ -300,7 +300,8 @@ impl Homogenised {
     /// Energy, loads and tangent.
     pub fn jet(&self, strain: &SixVector) -> PotentialJet {
         let strain = &strain.component_mul(&self.scales);
-        let jet = self.form.by_strain(strain, &self.sum(strain));
+        let natural = self.form.natural_jet(strain[2]);
+        let jet = by_strain(strain, natural, &self.sum(invariants(strain, natural[0])));
         PotentialJet {
             loads: jet.loads.component_mul(&self.scales),
             tangent: jet
@@ -315,21 +316,14 @@ impl Homogenised {
         self.form.natural_stretch(self.scales[2] * twist)
     }
 
-    fn natural_jet(&self, twist: f64) -> Jet {
-        let scale = self.scales[2];
-        let [value, slope, bend] = self.form.natural_jet(scale * twist);
-        [value, scale * slope, scale * scale * bend]
-    }
-
-    fn sum(&self, strain: &SixVector) -> InvariantJet {
-        let factors = Factors::at(self.form.invariants(strain));
-        let t = bounded_twist(strain[2]);
-        let mut sum = InvariantJet::default();
-        for (term, coefficients) in Term::ALL.into_iter().zip(&self.coefficients) {
-            let coefficient = polynomial(&coefficients[..], t);
-            sum.add(&term.jet(&factors).times(BY_TWIST, coefficient));
+    fn sum(&self, invariants: Invariants) -> InvariantJet {
+        let variables = Variables::at(invariants);
+        let t = bounded_twist(invariants[BY_TWIST]);
+        let mut sum = TermSum::new();
+        for term in Term::ALL {
+            sum.add(term, polynomial(self.coefficients(term), t), &variables);
         }
-        sum
+        sum.by_invariants(&variables)
     }
 }
 

@@ -95,24 +95,6 @@ pub(super) struct InvariantJet {
     pub(super) second: [Invariants; 5],
 }
 
-const ONE: Jet = [1.0, 0.0, 0.0];
-
-fn linear(x: f64) -> Jet {
-    [x, 1.0, 0.0]
-}
-
-fn square(x: f64) -> Jet {
-    [x * x, 2.0 * x, 2.0]
-}
-
-fn times(f: Jet, g: Jet) -> Jet {
-    [
-        f[0] * g[0],
-        f[1] * g[0] + f[0] * g[1],
-        f[2] * g[0] + 2.0 * f[1] * g[1] + f[0] * g[2],
-    ]
-}
-
 pub(super) fn of(f: Jet, inner: Jet) -> Jet {
     [
         f[0],
@@ -128,7 +110,7 @@ pub(super) fn bounded(e: f64, size: f64) -> Jet {
 }
 
 /// `x / (1 + x / size^2)`.
-fn bounded_square(x: f64, size: f64) -> Jet {
+pub(super) fn bounded_square(x: f64, size: f64) -> Jet {
     let q = 1.0 + x / (size * size);
     [x / q, q.powi(-2), -2.0 / (size * size) * q.powi(-3)]
 }
@@ -140,7 +122,7 @@ fn fading(x: f64, size: f64) -> Jet {
 }
 
 /// `sqrt(A + b^2) - b`.
-fn root(a: f64) -> Jet {
+pub(super) fn root(a: f64) -> Jet {
     let bent = bounded_square(a, CURVATURE);
     let r = (bent[0] + BENT * BENT).sqrt();
     // Avoids the cancellation of the difference.
@@ -160,52 +142,129 @@ fn compression(x: f64) -> Jet {
     ]
 }
 
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Factors {
-    e: f64,
-    a: f64,
-    g: f64,
-    c: f64,
-    k: f64,
+/// Variables of the terms: the invariants `k`, `e`, `a`, `g`, and functions of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Variable {
+    One,
+    Twist,
+    AnyStretch,
+    AnyBend,
+    AnyShear,
     /// `E`.
-    stretch: Jet,
+    Stretch,
     /// `A`.
-    bend: Jet,
+    Bend,
     /// `r`.
-    root: Jet,
+    Root,
     /// `G`.
-    shear: Jet,
-    /// Decay of `C` with curvature and shear.
-    fading: [Jet; 2],
+    Shear,
+    /// `C`.
+    Coupling,
+    Compression,
 }
 
-impl Factors {
-    pub(super) fn at([e, a, g, c, k]: Invariants) -> Self {
-        Self {
-            e,
-            a,
-            g,
-            c,
-            k,
-            stretch: bounded(e, EXTENSION),
-            bend: bounded_square(a, CURVATURE),
-            root: root(a),
-            shear: bounded_square(g, SHEAR),
-            fading: [fading(a, CURVATURE), fading(g, SHEAR)],
-        }
+const VARIABLES: usize = 11;
+
+/// Values of the [`Variable`]s.
+pub(super) type Values = [f64; VARIABLES];
+
+/// [`Variable`]s with their derivatives with respect to the invariants.
+pub(super) struct Variables {
+    values: Values,
+    first: [Invariants; VARIABLES],
+    second: [[Invariants; 5]; VARIABLES],
+}
+
+impl Variables {
+    pub(super) fn at(invariants: Invariants) -> Self {
+        let [e, a, g, c, k] = invariants;
+        let mut all = Self {
+            values: [0.0; VARIABLES],
+            first: [[0.0; 5]; VARIABLES],
+            second: [[[0.0; 5]; 5]; VARIABLES],
+        };
+        let root = root(a);
+        all.values[Variable::One as usize] = 1.0;
+        all.set(Variable::Twist, BY_TWIST, [k, 1.0, 0.0]);
+        all.set(Variable::AnyStretch, 0, [e, 1.0, 0.0]);
+        all.set(Variable::AnyBend, 1, [a, 1.0, 0.0]);
+        all.set(Variable::AnyShear, 2, [g, 1.0, 0.0]);
+        all.set(Variable::Stretch, 0, bounded(e, EXTENSION));
+        all.set(Variable::Bend, 1, bounded_square(a, CURVATURE));
+        all.set(Variable::Root, 1, root);
+        all.set(Variable::Shear, 2, bounded_square(g, SHEAR));
+        all.set_jet(Variable::Coupling, coupling(a, g, c));
+        all.set_jet(Variable::Compression, compressed([e, g, k], root));
+        all
+    }
+
+    fn set(&mut self, variable: Variable, invariant: usize, [value, slope, bend]: Jet) {
+        let n = variable as usize;
+        self.values[n] = value;
+        self.first[n][invariant] = slope;
+        self.second[n][invariant][invariant] = bend;
+    }
+
+    fn set_jet(&mut self, variable: Variable, jet: InvariantJet) {
+        let n = variable as usize;
+        self.values[n] = jet.value;
+        self.first[n] = jet.first;
+        self.second[n] = jet.second;
     }
 }
 
-impl Factors {
-    fn coupled(&self, stretch: Jet, bend: Jet, shear: Jet) -> [Jet; 5] {
-        let [of_a, of_g] = self.fading;
-        [
-            stretch,
-            times(bend, of_a),
-            times(shear, of_g),
-            linear(self.c),
-            ONE,
-        ]
+/// Values of the [`Variable`]s.
+pub(super) fn values([e, a, g, c, k]: Invariants) -> Values {
+    let root = root(a);
+    [
+        1.0,
+        k,
+        e,
+        a,
+        g,
+        bounded(e, EXTENSION)[0],
+        bounded_square(a, CURVATURE)[0],
+        root[0],
+        bounded_square(g, SHEAR)[0],
+        c * fading(a, CURVATURE)[0] * fading(g, SHEAR)[0],
+        compression(onset([e, g, k], root[0]))[0],
+    ]
+}
+
+/// `C`.
+fn coupling(a: f64, g: f64, c: f64) -> InvariantJet {
+    let ([f, df, ddf], [h, dh, ddh]) = (fading(a, CURVATURE), fading(g, SHEAR));
+    let (ag, ac, gc) = (c * df * dh, df * h, f * dh);
+    InvariantJet {
+        value: c * f * h,
+        first: [0.0, c * ac, c * gc, f * h, 0.0],
+        second: [
+            [0.0; 5],
+            [0.0, c * ddf * h, ag, ac, 0.0],
+            [0.0, ag, c * f * ddh, gc, 0.0],
+            [0.0, ac, gc, 0.0, 0.0],
+            [0.0; 5],
+        ],
+    }
+}
+
+/// Extension beyond the onset of slack.
+fn onset([e, g, k]: [f64; 3], r: f64) -> f64 {
+    let [of_r, of_g, of_k] = TIGHT;
+    e + of_r * r + of_g * g + of_k * k * k
+}
+
+fn compressed([e, g, k]: [f64; 3], root: Jet) -> InvariantJet {
+    let [of_r, of_g, of_k] = TIGHT;
+    let [value, slope, bend] = compression(onset([e, g, k], root[0]));
+    let by = [1.0, of_r * root[1], of_g, 0.0, 2.0 * of_k * k];
+    let mut second = by.map(|x| by.map(|y| bend * x * y));
+    second[1][1] += of_r * root[2] * slope;
+    second[BY_TWIST][BY_TWIST] += 2.0 * of_k * slope;
+    InvariantJet {
+        value,
+        first: by.map(|x| slope * x),
+        second,
     }
 }
 
@@ -264,119 +323,124 @@ impl Term {
         }
     }
 
-    #[inline]
-    fn factors(self, of: &Factors) -> [Jet; 5] {
-        let &Factors { e, a, g, k, .. } = of;
-        let &Factors {
-            stretch,
-            bend,
-            root,
-            shear,
-            ..
-        } = of;
-        let coupled = |stretch, bend, shear| of.coupled(stretch, bend, shear);
+    /// Factors of the term.
+    const fn factors(self) -> [Variable; 3] {
+        use Variable as V;
         match self {
-            Self::AnyStretch => [square(e), ONE, ONE, ONE, ONE],
-            Self::AnyBend => [ONE, linear(a), ONE, ONE, ONE],
-            Self::AnyShear => [ONE, ONE, linear(g), ONE, ONE],
-            Self::Twist => [ONE, ONE, ONE, ONE, square(k)],
-            Self::Turn => [ONE, ONE, ONE, ONE, linear(k)],
-            Self::Stretch => [times(stretch, stretch), ONE, ONE, ONE, ONE],
-            Self::StretchThrice => [times(stretch, times(stretch, stretch)), ONE, ONE, ONE, ONE],
-            Self::Compression => [ONE; 5],
-            Self::Bend => [ONE, bend, ONE, ONE, ONE],
-            Self::BendRoot => [ONE, root, ONE, ONE, ONE],
-            Self::StretchRoot => [stretch, root, ONE, ONE, ONE],
-            Self::StretchBend => [stretch, bend, ONE, ONE, ONE],
-            Self::Shear => [ONE, ONE, shear, ONE, ONE],
-            Self::StretchShear => [stretch, ONE, shear, ONE, ONE],
-            Self::Coupling => coupled(ONE, ONE, ONE),
-            Self::StretchCoupling => coupled(stretch, ONE, ONE),
-            Self::RootShear => [ONE, root, shear, ONE, ONE],
-            Self::RootCoupling => coupled(ONE, root, ONE),
-            Self::ShearCoupling => coupled(ONE, ONE, shear),
-            Self::ShearTwice => [ONE, ONE, times(shear, shear), ONE, ONE],
-            Self::ShearThrice => [ONE, ONE, times(shear, times(shear, shear)), ONE, ONE],
-            Self::RootTwiceShear => [ONE, times(root, root), shear, ONE, ONE],
-            Self::StretchTwiceRoot => [times(stretch, stretch), root, ONE, ONE, ONE],
-            Self::Pull => [stretch, ONE, ONE, ONE, ONE],
-            Self::StretchTwiceShear => [times(stretch, stretch), ONE, shear, ONE, ONE],
-            Self::StretchShearTwice => [stretch, ONE, times(shear, shear), ONE, ONE],
+            Self::AnyStretch => [V::AnyStretch, V::AnyStretch, V::One],
+            Self::AnyBend => [V::AnyBend, V::One, V::One],
+            Self::AnyShear => [V::AnyShear, V::One, V::One],
+            Self::Twist => [V::Twist, V::Twist, V::One],
+            Self::Turn => [V::Twist, V::One, V::One],
+            Self::Stretch => [V::Stretch, V::Stretch, V::One],
+            Self::StretchThrice => [V::Stretch, V::Stretch, V::Stretch],
+            Self::Compression => [V::Compression, V::One, V::One],
+            Self::Bend => [V::Bend, V::One, V::One],
+            Self::BendRoot => [V::Root, V::One, V::One],
+            Self::StretchRoot => [V::Stretch, V::Root, V::One],
+            Self::StretchBend => [V::Stretch, V::Bend, V::One],
+            Self::Shear => [V::Shear, V::One, V::One],
+            Self::StretchShear => [V::Stretch, V::Shear, V::One],
+            Self::Coupling => [V::Coupling, V::One, V::One],
+            Self::StretchCoupling => [V::Stretch, V::Coupling, V::One],
+            Self::RootShear => [V::Root, V::Shear, V::One],
+            Self::RootCoupling => [V::Root, V::Coupling, V::One],
+            Self::ShearCoupling => [V::Shear, V::Coupling, V::One],
+            Self::ShearTwice => [V::Shear, V::Shear, V::One],
+            Self::ShearThrice => [V::Shear, V::Shear, V::Shear],
+            Self::RootTwiceShear => [V::Root, V::Root, V::Shear],
+            Self::StretchTwiceRoot => [V::Stretch, V::Stretch, V::Root],
+            Self::Pull => [V::Stretch, V::One, V::One],
+            Self::StretchTwiceShear => [V::Stretch, V::Stretch, V::Shear],
+            Self::StretchShearTwice => [V::Stretch, V::Shear, V::Shear],
         }
     }
 
-    /// Value without polynomial, bit-identical to that of [`jet`](Self::jet).
+    /// Value without polynomial.
     #[inline]
-    pub(super) fn value(self, of: &Factors) -> f64 {
-        if self == Self::Compression {
-            return compressed(of).value;
+    pub(super) fn value(self, of: &Values) -> f64 {
+        let [x, y, z] = self.factors().map(|factor| of[factor as usize]);
+        x * y * z
+    }
+}
+
+/// Sum of terms: derivatives with respect to the [`Variable`]s.
+pub(super) struct TermSum {
+    value: f64,
+    first: Values,
+    second: [Values; VARIABLES],
+}
+
+impl TermSum {
+    pub(super) fn new() -> Self {
+        Self {
+            value: 0.0,
+            first: [0.0; VARIABLES],
+            second: [[0.0; VARIABLES]; VARIABLES],
         }
-        let factors = self.factors(of);
-        factors
-            .iter()
-            .fold(1.0, |value, [factor, ..]| value * factor)
     }
 
-    pub(super) fn jet(self, of: &Factors) -> InvariantJet {
-        if self == Self::Compression {
-            return compressed(of);
+    /// Adds a term times a function of the twist.
+    #[inline]
+    pub(super) fn add(&mut self, term: Term, [p, slope, bend]: Jet, of: &Variables) {
+        let twist = Variable::Twist as usize;
+        let factors = term.factors().map(|factor| factor as usize);
+        let [x, y, z] = factors.map(|factor| of.values[factor]);
+        for (i, rest) in factors.into_iter().zip([y * z, z * x, x * y]) {
+            self.first[i] += p * rest;
+            self.second[i][twist] += slope * rest;
+            self.second[twist][i] += slope * rest;
         }
+        let [i, j, k] = factors;
+        for ([a, b], rest) in [([i, j], z), ([j, k], x), ([k, i], y)] {
+            self.second[a][b] += p * rest;
+            self.second[b][a] += p * rest;
+        }
+        let product = x * y * z;
+        self.value += p * product;
+        self.first[twist] += slope * product;
+        self.second[twist][twist] += bend * product;
+    }
+
+    /// Derivatives with respect to the invariants.
+    pub(super) fn by_invariants(&self, of: &Variables) -> InvariantJet {
         let mut jet = InvariantJet {
-            value: 1.0,
+            value: self.value,
             ..InvariantJet::default()
         };
-        for (variable, factor) in self.factors(of).into_iter().enumerate() {
-            if factor != ONE {
-                jet = jet.times(variable, factor);
+        for (n, (by, row)) in self.first.iter().zip(&self.second).enumerate() {
+            let mut column = [0.0; 5];
+            for (x, first) in row.iter().zip(&of.first) {
+                for (sum, y) in column.iter_mut().zip(first) {
+                    *sum += x * y;
+                }
+            }
+            for v in 0..5 {
+                jet.first[v] += by * of.first[n][v];
+                for w in 0..5 {
+                    jet.second[v][w] += by * of.second[n][v][w] + of.first[n][v] * column[w];
+                }
             }
         }
         jet
     }
 }
 
-fn compressed(&Factors { e, g, k, root, .. }: &Factors) -> InvariantJet {
-    let [of_r, of_g, of_k] = TIGHT;
-    let r = root.map(|x| of_r * x);
-    let [value, slope, bend] = compression(e + r[0] + of_g * g + of_k * k * k);
-    let by = [1.0, r[1], of_g, 0.0, 2.0 * of_k * k];
-    let mut second = by.map(|x| by.map(|y| bend * x * y));
-    second[1][1] += r[2] * slope;
-    second[BY_TWIST][BY_TWIST] += 2.0 * of_k * slope;
-    InvariantJet {
-        value,
-        first: by.map(|x| slope * x),
-        second,
-    }
-}
-
 impl InvariantJet {
-    /// Product with a function of one invariant.
-    pub(super) fn times(mut self, variable: usize, [p, slope, bend]: Jet) -> Self {
-        let (value, first, by_it) = (self.value, self.first, self.second[variable]);
-        for row in &mut self.second {
-            for x in row {
-                *x *= p;
-            }
+    /// Product with a function of the twist.
+    pub(super) fn times_twist(&self, [p, slope, bend]: Jet) -> Self {
+        let mut second = self.second.map(|row| row.map(|x| p * x));
+        let mut first = self.first.map(|x| p * x);
+        for (k, x) in self.first.into_iter().enumerate() {
+            second[BY_TWIST][k] += slope * x;
+            second[k][BY_TWIST] += slope * x;
         }
-        for k in 0..5 {
-            self.first[k] *= p;
-            self.second[variable][k] = p * by_it[k] + slope * first[k];
-            self.second[k][variable] = self.second[variable][k];
-        }
-        self.second[variable][variable] =
-            p * by_it[variable] + 2.0 * slope * first[variable] + bend * value;
-        self.first[variable] += slope * value;
-        self.value *= p;
-        self
-    }
-
-    pub(super) fn add(&mut self, other: &Self) {
-        self.value += other.value;
-        for i in 0..5 {
-            self.first[i] += other.first[i];
-            for j in 0..5 {
-                self.second[i][j] += other.second[i][j];
-            }
+        second[BY_TWIST][BY_TWIST] += bend * self.value;
+        first[BY_TWIST] += slope * self.value;
+        Self {
+            value: p * self.value,
+            first,
+            second,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Derivatives, symmetries, linearity and coefficients of the potential.
 
-use super::terms::Factors;
+use super::terms::values;
 use super::{Homogenised, HomogenisedForm, SixVector, Term};
 use crate::RodKey;
 use actin_mechanics::testing::derivative;
@@ -9,8 +9,8 @@ use actin_mechanics::testing::derivative;
 fn law() -> Homogenised {
     let form = HomogenisedForm::new(&[-0.28, -0.8, 0.3, 0.1]).unwrap();
     let unit = |term: Term| {
-        let jet = term.jet(&Factors::at([-2e-3, 1e-4, 1e-4, 1e-4, 0.02]));
-        1.0 / jet.value.abs().max(1e-6)
+        let value = term.value(&values([-2e-3, 1e-4, 1e-4, 1e-4, 0.02]));
+        1.0 / value.abs().max(1e-6)
     };
     let coefficients = |term: Term| -> Vec<f64> {
         let place = Term::ALL.iter().position(|other| *other == term).unwrap();
@@ -71,6 +71,12 @@ fn the_law_has_the_symmetries_of_the_filament() {
             assert!((same - energy).abs() < 1e-11 * energy.abs().max(1.0));
         }
     }
+}
+
+#[test]
+fn terms_are_listed_in_their_order() {
+    let places = Term::ALL.map(|term| term as usize);
+    assert!(places.into_iter().eq(0..Term::ALL.len()));
 }
 
 #[test]
