@@ -208,6 +208,16 @@ impl Interaction for EnergyGradient {
     }
 }
 
+impl EnergyGradient {
+    /// As `add_stiffness`, with rotations about the axis coupled to each other and to stretch alone.
+    pub(crate) fn add_stiffness_without_spin(&self, state: &State, stiffness: &mut Stiffness) {
+        stiffness.extend_without_spin(true, |own| self.add_stiffness(state, own));
+        if let Some(segments) = &self.extended {
+            segments.add_twist_stretch(self.rod(), state, stiffness);
+        }
+    }
+}
+
 impl SecondOrder for EnergyGradient {
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         match &self.extended {

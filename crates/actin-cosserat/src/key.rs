@@ -73,6 +73,8 @@ pub enum RodKey {
     Area,
     /// Rest length of segments.
     SegmentLength,
+    /// Temperature of a heat bath (K).
+    Temperature,
 }
 
 impl fmt::Display for RodKey {
@@ -112,6 +114,7 @@ impl fmt::Display for RodKey {
             Self::LinearDensity => "linear_density",
             Self::Area => "area",
             Self::SegmentLength => "segment length",
+            Self::Temperature => "temperature",
         })
     }
 }

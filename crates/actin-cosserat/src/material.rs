@@ -178,10 +178,11 @@ impl RodMaterial {
         }
     }
 
+    /// Returns `true` for straight rods with constant, axisymmetric rigidities, or with a potential.
     pub(crate) fn is_axisymmetric(&self) -> bool {
         let rest = self.rest_curvature;
         let is_straight = rest.x == 0.0 && rest.y == 0.0;
-        is_straight && self.laws().is_some_and(StrainLaws::are_axisymmetric)
+        is_straight && self.laws().is_none_or(StrainLaws::are_axisymmetric)
     }
 
     /// Potential of all strains, or `None`.

@@ -14,6 +14,10 @@
 //! `kappa_1` and `kappa_2` are the mean curvatures of both sides, `kappa` is their mean, `w` is
 //! 1/2, or 1 for a segment with a single side: nine numbers per segment.
 //!
+//! Stresses of axisymmetric rods follow the spins of their frames during a step
+//! ([`RandomStress::turn_back`]), and the matrix of a step couples these spins to twist and stretch
+//! alone.
+//!
 //! Axial torques on frames are due to twist alone. Only friction resists axial rotations, so that
 //! other torques would rotate frames until the stress increases the existing bending.
 
@@ -234,7 +238,11 @@ impl RandomStress for EnergyGradient {
     }
 
     fn axial_frames(&self) -> Range<usize> {
-        if self.extended().is_none() && self.material().is_axisymmetric() {
+        // Other coupled laws take more iterations with decoupled spins.
+        let is_coupled = self
+            .extended()
+            .is_some_and(|extended| self.material().laws().is_some() || !extended.is_straight());
+        if self.material().is_axisymmetric() && !is_coupled {
             self.layout().frames()
         } else {
             0..0
@@ -248,12 +256,25 @@ impl RandomStress for EnergyGradient {
         }
         let layout = self.layout();
         let of_segments = layout.frames().map(|frame| spins[frame]);
-        let joints = layout.voronoi_lengths().iter().zip(layout.bending_chain());
-        let of_joints = joints.map(|(_, frame)| 0.5 * (spins[frame] + spins[frame + 1]));
+        let of_joint = |frames: [usize; 2]| 0.5 * (spins[frames[0]] + spins[frames[1]]);
+        let angles: Vec<f64> = if let Some(extended) = self.extended() {
+            let of_segment = |(k, own): (usize, f64)| {
+                let mut angles = [own; EXTENDED / VECTOR];
+                for around in extended.side_elements(k, layout) {
+                    angles[1 + around.side] = of_joint(around.frames);
+                }
+                angles
+            };
+            of_segments.enumerate().flat_map(of_segment).collect()
+        } else {
+            let joints = layout.voronoi_lengths().iter().zip(layout.bending_chain());
+            let of_joints = joints.map(|(_, frame)| of_joint([frame, frame + 1]));
+            of_segments.chain(of_joints).collect()
+        };
         let vectors = drawn
             .chunks_exact(VECTOR)
             .zip(turned.chunks_exact_mut(VECTOR));
-        for (spin, (drawn, turned)) in of_segments.chain(of_joints).zip(vectors) {
+        for (spin, (drawn, turned)) in angles.into_iter().zip(vectors) {
             let (sin, cos) = spin.sin_cos();
             turned[0] = cos * drawn[0] + sin * drawn[1];
             turned[1] = cos * drawn[1] - sin * drawn[0];
@@ -285,16 +306,24 @@ impl RandomStress for EnergyGradient {
             self.add_stressed_segments(state, (forces, stress.is_turned), stiffness);
             return self.add_stressed_bending(state, (couples, stress.is_turned), stiffness);
         }
-        self.add_stiffness(state, stiffness);
         let parts = Parts {
             rod: self,
             stresses: stress.values,
         };
-        for force in parts.forces() {
-            force.add_stiffness(state, stiffness);
-        }
-        for couple in parts.couples() {
-            couple.add_stiffness(state, stiffness);
+        let of_stress = |stiffness: &mut Stiffness| {
+            parts
+                .forces()
+                .for_each(|force| force.add_stiffness(state, stiffness));
+            parts
+                .couples()
+                .for_each(|couple| couple.add_stiffness(state, stiffness));
+        };
+        if stress.is_turned {
+            self.add_stiffness_without_spin(state, stiffness);
+            stiffness.extend_without_spin(false, of_stress);
+        } else {
+            self.add_stiffness(state, stiffness);
+            of_stress(stiffness);
         }
     }
 }
@@ -369,7 +398,8 @@ mod tests {
     use super::*;
     use crate::{Homogenised, Rigidities, RodClamp, RodEnd, StraightRod};
     use actin_mechanics::testing::assert_fluctuates;
-    use actin_mechanics::{Xorshift, perturb};
+    use actin_mechanics::{Coordinates, Xorshift, perturb};
+    use std::collections::BTreeMap;
 
     fn clamped() -> (State, RodLayout) {
         let mut state = State::default();
@@ -383,8 +413,19 @@ mod tests {
         let mut state = State::default();
         let layout = StraightRod::uniform(4, 10.0).push(&mut state).unwrap();
         perturb(&mut state, &mut Xorshift::new(3), 0.5, 0.1);
-        let material = RodMaterial::new(Rigidities::table4()).unwrap();
-        let rod = EnergyGradient::new(layout.clone(), material);
+        for material in [
+            RodMaterial::new(Rigidities::table4()).unwrap(),
+            RodMaterial::homogenised(Homogenised::mean_filament_at_298_k()),
+        ] {
+            assert_spins(
+                state.clone(),
+                &EnergyGradient::new(layout.clone(), material),
+            );
+        }
+    }
+
+    fn assert_spins(mut state: State, rod: &EnergyGradient) {
+        let layout = rod.layout();
         assert_eq!(rod.axial_frames(), layout.frames());
         let mut random = Xorshift::new(4);
         let drawn: Vec<f64> = (0..rod.components()).map(|_| random.sample()).collect();
@@ -410,6 +451,48 @@ mod tests {
             let difference = turn * after.torque.get(frame) - before.torque.get(frame);
             assert!(difference.norm() < 1e-11, "{difference:?}");
         }
+    }
+
+    /// In a straight rod, axial rotations are coupled to each other and to stretch alone.
+    #[test]
+    fn the_stiffness_without_spin_is_exact_for_straight_rods() {
+        let mut state = State::default();
+        let layout = StraightRod::uniform(4, 10.0).push(&mut state).unwrap();
+        for (i, frame) in layout.points().zip(layout.frames()) {
+            let x = state.points.position.get(i);
+            state.points.position.set(i, 1.001 * x);
+            let turn = actin_mechanics::rotation::exp(Vector3::z() * (0.1 * i as f64));
+            state.frames.orientation.set(frame, turn);
+        }
+        let material = RodMaterial::homogenised(Homogenised::mean_filament_at_298_k());
+        let rod = EnergyGradient::new(layout, material);
+        let (mut whole, mut without) = (Stiffness::default(), Stiffness::default());
+        rod.add_stiffness(&state, &mut whole);
+        rod.add_stiffness_without_spin(&state, &mut without);
+        let [whole, without] = [&whole, &without].map(sums);
+        let largest = whole.values().map(Matrix3::amax).fold(0.0, f64::max);
+        for (bodies, block) in &without {
+            let difference = (block - whole[bodies]).amax();
+            assert!(difference < 1e-12 * largest, "{bodies:?}: {difference}");
+        }
+        let twist_stretch = |(a, b): &&(Coordinates, Coordinates)| {
+            a != b && without[&(*a, *b)].column(2).amax() > 1.0
+        };
+        assert!(without.keys().any(|bodies| twist_stretch(&bodies)));
+    }
+
+    /// Sums of the blocks of each pair of bodies.
+    fn sums(stiffness: &Stiffness) -> BTreeMap<(Coordinates, Coordinates), Matrix3> {
+        let mut all = BTreeMap::new();
+        for (a, b, block) in stiffness.all() {
+            let (bodies, block) = if a <= b {
+                ((*a, *b), *block)
+            } else {
+                ((*b, *a), block.transpose())
+            };
+            *all.entry(bodies).or_insert_with(Matrix3::zeros) += block;
+        }
+        all
     }
 
     #[test]

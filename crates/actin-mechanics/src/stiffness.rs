@@ -47,6 +47,26 @@ impl Stiffness {
         self.links.extend(self.blocks.drain(start..));
     }
 
+    /// Adds all blocks that `add` pushes, without the coupling of rotations about the third axes of
+    /// frames to other motion. `has_twist` keeps their coupling to each other.
+    pub fn extend_without_spin(&mut self, has_twist: bool, add: impl FnOnce(&mut Self)) {
+        let is_frame = |body: &Coordinates| matches!(body, Coordinates::Frame(_));
+        let start = self.blocks.len();
+        add(self);
+        for (a, b, block) in &mut self.blocks[start..] {
+            let twist = block[(2, 2)];
+            if is_frame(a) {
+                block.fill_row(2, 0.0);
+            }
+            if is_frame(b) {
+                block.fill_column(2, 0.0);
+            }
+            if !is_frame(a) && !is_frame(b) || is_frame(a) && is_frame(b) && has_twist {
+                block[(2, 2)] = twist;
+            }
+        }
+    }
+
     /// Blocks of chains in the order of insertion.
     pub fn blocks(&self) -> &[(Coordinates, Coordinates, Matrix3)] {
         &self.blocks

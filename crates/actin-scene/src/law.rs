@@ -10,14 +10,14 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub enum RodLaw {
     /// One potential of all strains: the energy of cells of monomers of the mean filament or, with sampled
-    /// bonds, the mean over samples. In a heat bath it is the free energy of the mean filament at 298 K: it
-    /// depends on the segment length, which must be at least 5 nm, and reported energies are free energies. The
-    /// material must be omitted.
+    /// bonds, the mean over samples. In a heat bath of 273 to 323 K it is the free energy of the mean
+    /// filament: it depends on the segment length, which must be at least 5 nm, and reported energies are free energies.
+    /// The material must be omitted.
     #[default]
     Homogenised,
     /// `Homogenised` without thermal effects, also in a heat bath.
     HomogenisedAthermal,
-    /// `Homogenised` at 298 K, also without a heat bath; energies are then free energies of cells of 36 nm. The
+    /// `Homogenised` at 298 K, with and without a heat bath; energies are then free energies of cells of 36 nm. The
     /// rest length is 0.46 % shorter than as built: a rod held at both ends is under tension.
     HomogenisedAt298K,
     /// Constant rigidities of the material: for custom materials, analytic limits, and to reproduce the paper.

@@ -128,8 +128,8 @@ const STUDIES: [Study; 8] = [
     },
 ];
 
-/// Scenes of measured networks, with changes for short runs.
-const NETWORKS: [(&str, &[&str]); 7] = [
+/// Scenes of measurements without a script, with changes for short runs.
+const MEASURED: [(&str, &[&str]); 8] = [
     ("contraction-network", &["task.duration_ms=0.02"]),
     ("crossed-pair", &["task.duration_ms=0.1"]),
     ("fine-network", &[]),
@@ -140,6 +140,7 @@ const NETWORKS: [(&str, &[&str]); 7] = [
         &["task.duration_ms=0.02", "task.record_every_ns=2e3"],
     ),
     ("network-heat", &["task.duration_ms=0.1"]),
+    ("warm", &["task.duration_ns=1.0"]),
 ];
 
 fn folder() -> PathBuf {
@@ -179,7 +180,7 @@ fn scenes_run() {
         run_short(&place, &format!("{}.ron", study.name), study.set);
     }
     let place = Workplace::with("");
-    for (name, set) in NETWORKS {
+    for (name, set) in MEASURED {
         let file = folder().join(format!("{name}.ron"));
         run_short(&place, file.to_str().unwrap(), set);
     }

@@ -97,6 +97,11 @@ impl SegmentCurvature {
         }
     }
 
+    pub(crate) fn is_straight(&self) -> bool {
+        let mut all = self.around.iter();
+        all.all(|a| a.curvature_difference.x == 0.0 && a.curvature_difference.y == 0.0)
+    }
+
     pub(crate) fn end_twists(&self) -> &[EndTwist] {
         &self.end_twists
     }

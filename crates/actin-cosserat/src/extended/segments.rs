@@ -84,6 +84,11 @@ pub(crate) struct SideElement {
 }
 
 impl ExtendedSegments {
+    /// Returns `true` if neighbouring rods have no other rest curvature.
+    pub(crate) fn is_straight(&self) -> bool {
+        self.curvature.is_straight()
+    }
+
     pub(crate) fn factors(&self, k: usize) -> Vector3 {
         let across = self.curvature.shear_factor(k);
         Vector3::new(across, across, 1.0)
@@ -200,6 +205,31 @@ impl ExtendedSegments {
                 (segment.element).stiffness_of(jet.force, jet.by_strain, (segment.q, segment.l));
             own.push(segment.points, segment.frame, stiffness);
             push_curvature(&segment, &jet, state, stiffness);
+        }
+    }
+}
+
+impl ExtendedSegments {
+    /// Adds the coupling of axial rotations to stretch, with directors along the segments.
+    pub(crate) fn add_twist_stretch(
+        &self,
+        (layout, material): (&RodLayout, &RodMaterial),
+        state: &State,
+        stiffness: &mut Stiffness,
+    ) {
+        for k in 0..layout.segments() {
+            let segment = self.segment(k, layout, state);
+            let jet = self.law.jet(material, segment.strain(), segment.curvature);
+            let axis = segment.q * Vector3::z() * jet.mixed[(2, 2)];
+            for around in segment.around {
+                for (frame, slope) in curvature_slopes(around, state) {
+                    for (point, sign) in segment.points.into_iter().zip([-1.0, 1.0]) {
+                        let mut block = Matrix3::zeros();
+                        block.set_column(2, &(axis * (sign * slope[(2, 2)])));
+                        stiffness.push(Coordinates::Point(point), frame, block);
+                    }
+                }
+            }
         }
     }
 }

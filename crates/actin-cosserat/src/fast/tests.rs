@@ -63,7 +63,7 @@ fn potential() -> RodMaterial {
 }
 
 fn heated() -> RodMaterial {
-    RodMaterial::homogenised(Homogenised::heated_rod(10.0).expect("10 nm is in range"))
+    RodMaterial::homogenised(Homogenised::heated_rod(10.0, 298.0).expect("10 nm is in range"))
 }
 
 fn laws() -> Vec<Named> {

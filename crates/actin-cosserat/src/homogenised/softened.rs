@@ -83,7 +83,7 @@ mod tests {
     fn each_factor_multiplies_its_rigidity_at_rest() {
         for law in [
             Homogenised::mean_filament(),
-            Homogenised::heated_rod(10.0).unwrap(),
+            Homogenised::heated_rod(10.0, 298.0).unwrap(),
         ] {
             let rest = SixVector::ith(5, law.natural_stretch(0.0));
             let [shear, stretch, bend, twist] = [0.9, 0.7, 0.2, 0.1];

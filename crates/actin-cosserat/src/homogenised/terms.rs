@@ -415,10 +415,12 @@ impl TermSum {
                     *sum += x * y;
                 }
             }
+            let (first, second) = (of.first[n], &of.second[n]);
             for v in 0..5 {
-                jet.first[v] += by * of.first[n][v];
-                for w in 0..5 {
-                    jet.second[v][w] += by * of.second[n][v][w] + of.first[n][v] * column[w];
+                jet.first[v] += by * first[v];
+                let pairs = second[v].iter().zip(column);
+                for (sum, (x, y)) in jet.second[v].iter_mut().zip(pairs) {
+                    *sum += by * x + first[v] * y;
                 }
             }
         }

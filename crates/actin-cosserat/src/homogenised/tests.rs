@@ -150,7 +150,7 @@ fn the_heated_filament_is_that_of_the_cells() {
 #[test]
 fn heated_rods_with_long_segments_are_stable() {
     for segment_nm in [20.0, 36.0, 60.0, 1000.0] {
-        let law = Homogenised::heated_rod(segment_nm).unwrap();
+        let law = Homogenised::heated_rod(segment_nm, 298.0).unwrap();
         assert_stable(law, law.range().stretch);
     }
 }
@@ -161,7 +161,7 @@ fn heated_rods_with_long_segments_are_stable() {
 #[test]
 fn heated_rods_with_short_segments_are_stable_under_tension() {
     for (segment_nm, bound) in [(5.0, 0.73), (7.5, 0.87), (10.0, 0.94), (15.0, 0.995)] {
-        let law = Homogenised::heated_rod(segment_nm).unwrap();
+        let law = Homogenised::heated_rod(segment_nm, 298.0).unwrap();
         let mut strain = SixVector::ith(5, law.form().rest());
         for tension in (-1..=30).map(|n| 10.0 * f64::from(n)) {
             for _ in 0..40 {
@@ -188,7 +188,7 @@ fn heated_rods_with_short_segments_are_stable_under_tension() {
 #[test]
 fn heated_rods_have_a_bounded_energy() {
     for segment_nm in [5.0, 10.0, 30.0] {
-        let law = Homogenised::heated_rod(segment_nm).unwrap();
+        let law = Homogenised::heated_rod(segment_nm, 298.0).unwrap();
         let rest = SixVector::ith(5, law.form().rest());
         let far = [
             (0, 0.1),

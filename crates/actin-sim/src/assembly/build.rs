@@ -137,7 +137,7 @@ struct Builder<'a> {
 impl<'a> Builder<'a> {
     fn new(scene: &'a Scene) -> Result<Self, SceneProblem> {
         let held = ClampedEnds::new(scene);
-        let in_bath = scene.thermal().is_some();
+        let bath_k = scene.thermal().map(|thermal| thermal.temperature_k);
         let mut first_section = 0;
         let mut couples = couples_nm(scene);
         let mut strands = Vec::new();
@@ -147,7 +147,7 @@ impl<'a> Builder<'a> {
                 Some(&scene.clamps[clamp])
             });
             let ends = (clamps, couples.remove(&i).unwrap_or_default());
-            let strand = Strand::new((i, filament), ends, first_section, in_bath);
+            let strand = Strand::new((i, filament), ends, first_section, bath_k);
             strands.push(strand.map_err(|p| p.with_filament(&scene.filament_key(i)))?);
             first_section += filament.sections.len();
         }

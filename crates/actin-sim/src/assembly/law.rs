@@ -29,16 +29,15 @@ pub(super) struct Law {
 }
 
 impl Law {
-    /// Law of section `i` of a filament. `bath` is the length (nm) of its segments in a heat bath, or
-    /// `None` without a bath and for monomers.
+    /// Law of section `i` of a filament. `heated` is `None` without a heat bath and for monomers.
     pub(super) fn of_section(
         (i, section): (usize, &Section),
         filament: &Filament,
-        bath: Option<f64>,
+        heated: Option<HeatedSegments>,
     ) -> Result<Self, SceneProblem> {
         let rod = &filament.rod;
         let potential = |law: &RodLaw| {
-            let potential = potential(law, &filament.monomers, bath);
+            let potential = potential(law, &filament.monomers, heated);
             potential.map_err(|segment_nm| too_short((i, section), segment_nm))
         };
         let Some(altered) = section.altered_rod() else {
@@ -235,34 +234,51 @@ fn written(parameter: RodKey) -> &'static str {
         RodKey::LinearDensity => "linear_density",
         RodKey::Area => "area",
         RodKey::SegmentLength => "segments",
+        RodKey::Temperature => "temperature_k",
     }
 }
 
 type Parts = (RodMaterial, Option<TwistStretch>);
 
-/// Potential of a law `Homogenised`, with segments of length `bath` (nm) in a heat bath. Without a
-/// bath, the law at 298 K is the free energy of the cells, which contains all fluctuations up to
-/// 36 nm.
+/// Segments of a rod in a heat bath.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HeatedSegments {
+    pub(crate) segment_nm: f64,
+    pub(crate) temperature_k: f64,
+}
+
+/// Potential of a law `Homogenised`. Without a bath, the law at 298 K is the free energy of the cells,
+/// which contains all fluctuations up to 36 nm. At temperatures beyond those of the law
+/// (`Homogenised::HEATED_RANGE_K`), it is that of the nearest.
 ///
 /// # Errors
 /// The length of the segments, if it is too short.
 pub(crate) fn potential(
     law: &RodLaw,
     monomers: &Monomers,
-    bath: Option<f64>,
+    heated: Option<HeatedSegments>,
 ) -> Result<&'static Homogenised, f64> {
-    match (law, bath) {
+    match (law, heated) {
         (RodLaw::HomogenisedAthermal, _) | (RodLaw::Homogenised, None) => {
             let bonds = monomers.sampled_bonds();
             Ok(bonds.map_or_else(Homogenised::mean_filament, Homogenised::sampled_filament))
         }
         (_, None) => Ok(Homogenised::mean_filament_at_298_k()),
-        (_, Some(segment_nm)) => Homogenised::heated_rod(segment_nm).map_err(|error| error.value),
+        (law, Some(heated)) => {
+            let [lowest, highest] = Homogenised::HEATED_RANGE_K;
+            let temperature_k = if *law == RodLaw::HomogenisedAt298K {
+                Homogenised::HEATED_K
+            } else {
+                heated.temperature_k.clamp(lowest, highest)
+            };
+            let potential = Homogenised::heated_rod(heated.segment_nm, temperature_k);
+            potential.map_err(|error| error.value)
+        }
     }
 }
 
 /// Rule for segments in a heat bath, without the remedy.
-pub(crate) const TOO_SHORT: &str = "rods under the law Homogenised at 298 K need segments of at least 5 nm: the monomers are 2.7 nm apart, \
+pub(crate) const TOO_SHORT: &str = "rods under the law Homogenised in a heat bath need segments of at least 5 nm: the monomers are 2.7 nm apart, \
     and the free energy of shorter segments is not convex";
 
 fn too_short((i, section): (usize, &Section), segment_nm: f64) -> SceneProblem {
@@ -346,7 +362,7 @@ mod tests {
     fn short_segments_are_refused_in_a_bath() {
         for law in ["Homogenised", "HomogenisedAt298K"] {
             let error = build(24, law, BATH).unwrap_err();
-            let begins = "filament.sections[0].segments = segments of 2.50 nm: rods under the law Homogenised at 298 K \
+            let begins = "filament.sections[0].segments = segments of 2.50 nm: rods under the law Homogenised in a heat bath \
                 need segments of at least 5 nm";
             let remedy = "; write segments: 12 or fewer, resolve monomers, or write law: HomogenisedAthermal";
             assert!(error.contains(begins) && error.ends_with(remedy), "{error}");
@@ -375,6 +391,21 @@ mod tests {
         assert!(error.contains(begins), "{error}");
         let (most, _) = remedy.split_once(" or fewer").expect(remedy);
         assert!(follow(most.parse().unwrap()).is_ok(), "{error}");
+    }
+
+    /// Entropy shortens filaments: natural stretch of cells -4.40e-3, -4.67e-3, -4.92e-3 at 273, 298, 323 K
+    /// (`cargo xtask homogenise heat --temperature T`), and a rigidity of 2.37e4 pN without twist.
+    #[test]
+    fn the_tension_grows_with_temperature() {
+        let at = |kelvin: f64| {
+            let bath = BATH.replace("298.0", &format!("{kelvin:?}"));
+            tension(&mut build(2, "Homogenised", &bath).unwrap()).abs()
+        };
+        let [cold, room, warm] = [273.0, 298.0, 323.0].map(at);
+        let slope = (warm - cold) / 50.0;
+        assert!((slope / 0.244 - 1.0).abs() < 0.1, "{slope} pN/K");
+        assert!((room - 0.5 * (cold + warm)).abs() < 1e-3 * room, "{room}");
+        assert!((at(250.0) - cold).abs() < 1e-9 * cold);
     }
 
     /// Fluctuations of shorter segments supply a part of the tension.

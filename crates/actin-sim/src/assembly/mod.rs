@@ -37,7 +37,7 @@ pub use extrapolation::MeasuredError;
 pub(crate) use kinetics::{COARSEST, Kinetics, Log, SiteTable};
 pub use kinetics::{LinkerEvent, LinkerEventKind};
 pub(crate) use lattice::cells_nm;
-pub(crate) use law::{TOO_SHORT, potential};
+pub(crate) use law::{HeatedSegments, TOO_SHORT, potential};
 pub use model_limits::ModelLimitExceeded;
 pub(crate) use model_limits::worst as worst_of;
 pub(crate) use models::ellipsoids;

@@ -1,6 +1,6 @@
 //! Cells of a filament, and the scene with some of them as monomers.
 
-use crate::assembly::{TOO_SHORT, cells_nm, potential};
+use crate::assembly::{HeatedSegments, TOO_SHORT, cells_nm, potential};
 use crate::scene::{AdaptiveResolution, Filament, Scene, SceneProblem, Section};
 use actin_cosserat::Homogenised;
 
@@ -31,9 +31,12 @@ impl Cells {
         let Filament { rod, monomers, .. } = &scene.filament;
         let lengths = self.spans_nm().map(|[from, to]| to - from);
         let cell_nm = lengths.fold(f64::INFINITY, f64::min);
-        let bath = scene.thermal().map(|_| cell_nm / self.segments as f64);
+        let heated = scene.thermal().map(|thermal| HeatedSegments {
+            segment_nm: cell_nm / self.segments as f64,
+            temperature_k: thermal.temperature_k,
+        });
         let is_law = rod.law.is_homogenised();
-        if !is_law || potential(&rod.law, monomers, bath).is_ok() {
+        if !is_law || potential(&rod.law, monomers, heated).is_ok() {
             return Ok(());
         }
         let most = (cell_nm / Homogenised::SHORTEST_HEATED_NM).floor();

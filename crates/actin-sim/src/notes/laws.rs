@@ -62,17 +62,23 @@ const SOFTENED_IN_BATH: &str = "rods with the law Homogenised in a heat bath and
     unaltered monomers. Its thermal part would not become smaller with softer bonds: resolve the section as monomers to check";
 
 /// Largest difference (K) between the temperatures of the free energy and of the bath without a
-/// warning. The thermal part of the free energy is then wrong by up to 3.5 %.
-const NEAR_K: f64 = 10.0;
+/// warning. The thermal part of the free energy is then wrong by 1 %.
+const NEAR_K: f64 = 3.0;
 
-fn far_from(temperature_k: f64) -> Option<String> {
-    let own = Homogenised::HEATED_K;
+fn far_from(law: &RodLaw, temperature_k: f64) -> Option<String> {
+    let (own, remedy) = if *law == RodLaw::HomogenisedAt298K {
+        (Homogenised::HEATED_K, "write law: Homogenised")
+    } else {
+        let [lowest, highest] = Homogenised::HEATED_RANGE_K;
+        let nearest = temperature_k.clamp(lowest, highest);
+        (nearest, "resolve monomers, or set 273 to 323 K")
+    };
     let error = 100.0 * (own / temperature_k - 1.0).abs();
     ((temperature_k - own).abs() > NEAR_K).then(|| {
         format!(
             "rods with the law Homogenised in a heat bath of {temperature_k} K: their free energy is the one at \
-             {own} K, and the law has no other temperature. Its thermal part, such as the tension of a filament \
-             held at its length as built, is wrong by about {error:.0} %: resolve monomers, or set {own} K"
+             {own} K. Its thermal part, such as the tension of a filament held at its length as built, is wrong by \
+             about {error:.0} %: {remedy}"
         )
     })
 }
@@ -145,7 +151,7 @@ fn law_in_bath(rod: &RodModel, temperature_k: f64) -> Option<String> {
         return None;
     }
     if matches!(rod.law, RodLaw::Homogenised | RodLaw::HomogenisedAt298K) {
-        return far_from(temperature_k);
+        return far_from(&rod.law, temperature_k);
     }
     let Some((name, (persistence, twist))) = fitted_without_heat(&rod.law) else {
         let note = "rods with the law Laws in a heat bath: laws fitted to equilibria at zero temperature are not \
@@ -202,20 +208,33 @@ mod tests {
 
     #[test]
     fn other_temperatures_are_noted() {
-        let at = |kelvin: &str| {
-            notes(
-                &rod("law: HomogenisedAt298K", 0.0),
+        for (law, kelvin, expected) in [
+            (
+                "HomogenisedAt298K",
+                "310.0",
+                Some("about 4 %: write law: Homogenised"),
+            ),
+            ("HomogenisedAt298K", "300.0", None),
+            ("Homogenised", "310.0", None),
+            (
+                "Homogenised",
+                "250.0",
+                Some("about 9 %: resolve monomers, or set 273 to 323 K"),
+            ),
+        ] {
+            let all = notes(
+                &rod(&format!("law: {law}"), 0.0),
                 &BATH.replace("298.0", kelvin),
-            )
-        };
-        let is_far =
-            |note: &String| note.contains("is wrong by about 4 %: resolve monomers, or set 298 K");
-        assert!(at("310.0").iter().any(is_far), "{:?}", at("310.0"));
-        assert!(
-            !at("305.0")
+            );
+            let found = all
                 .iter()
-                .any(|note| note.contains("other temperature"))
-        );
+                .find(|note| note.contains("their free energy is"));
+            let is_expected = match (found, expected) {
+                (Some(note), Some(expected)) => note.contains(expected),
+                (found, expected) => found.is_none() && expected.is_none(),
+            };
+            assert!(is_expected, "{law}, {kelvin} K: {found:?}");
+        }
     }
 
     /// Each law gives one warning, for any number of filaments.

@@ -31,7 +31,7 @@ impl Assembly {
         let shortest = lengths.copied().min_by(f64::total_cmp)?;
         (shortest < SHORTEST_IN_WATER_NM).then(|| {
             format!(
-                "overdamped rods with the law Homogenised at 298 K in segments of {shortest:.1} nm: the random stress of long steps is \
+                "overdamped rods with the law Homogenised in segments of {shortest:.1} nm: the random stress of long steps is \
                  not exact for this law. The tension of 60 nm between walls is 11 and 2.4 % too large with segments of 5 and 10 nm, and 0.5 % \
                  too small with 20 nm; use segments of 20 nm or more (docs/measured/heat.md)"
             )

@@ -275,7 +275,7 @@ mod tests {
         for length_nm in (36..300).map(f64::from) {
             let count = segments(length_nm, 5.0) as f64;
             assert!(
-                Homogenised::heated_rod(length_nm / count).is_ok(),
+                Homogenised::heated_rod(length_nm / count, 298.0).is_ok(),
                 "{length_nm}"
             );
         }

@@ -23,12 +23,18 @@ pub(super) enum Work {
 #[derive(Clone, Copy)]
 pub(super) struct Network {
     pub(super) filaments: usize,
+    pub(super) law: &'static str,
     pub(super) couplings: Couplings,
     pub(super) step_ns: f64,
 }
 
-/// Usual step of networks (ns), below the default of 4941 ns.
-const NETWORK_STEP_NS: f64 = 4500.0;
+/// Steps (ns) below the default of 4941 ns.
+const NETWORK: Network = Network {
+    filaments: 100,
+    law: "Constant",
+    couplings: Couplings::Linkers,
+    step_ns: 4500.0,
+};
 
 #[derive(Clone, Copy)]
 pub(super) enum Couplings {
@@ -109,22 +115,8 @@ const fn case(name: &'static str, work: Work, target: Option<f64>) -> Case {
     Case { name, work, target }
 }
 
-const fn network(name: &'static str, filaments: usize, couplings: Couplings) -> Case {
-    network_by_steps(name, filaments, couplings, NETWORK_STEP_NS)
-}
-
-const fn network_by_steps(
-    name: &'static str,
-    filaments: usize,
-    couplings: Couplings,
-    step_ns: f64,
-) -> Case {
-    let network = Network {
-        filaments,
-        couplings,
-        step_ns,
-    };
-    case(name, Work::Network(network), None)
+const fn network(name: &'static str, of: Network) -> Case {
+    case(name, Work::Network(of), None)
 }
 
 const fn ensemble(name: &'static str, of: Replicated) -> Case {
@@ -135,7 +127,7 @@ const fn equilibrium(name: &'static str, length_nm: f64) -> Case {
     case(name, Work::Equilibrium { length_nm }, None)
 }
 
-pub(super) const CASES: [Case; 29] = [
+pub(super) const CASES: [Case; 30] = [
     case("rod-pv-16", rod(16, 1, VERLET), None),
     case("rod-pv-64", rod(64, 1, VERLET), Some(50e6)),
     case("rod-pv-256", rod(256, 1, VERLET), Some(50e6)),
@@ -166,13 +158,57 @@ pub(super) const CASES: [Case; 29] = [
     ensemble("ensemble-ellipsoid-160nm", Replicated::Monomers),
     ensemble("ensemble-mixed-160nm", Replicated::Mixed),
     ensemble("ensemble-equilibria-160nm", Replicated::Equilibria),
-    network("network-20", 20, Couplings::Linkers),
-    network("network-100", 100, Couplings::Linkers),
-    network("network-500", 500, Couplings::Linkers),
-    network("network-2000", 2000, Couplings::Linkers),
-    network_by_steps("network-500-1us", 500, Couplings::Linkers, 1000.0),
-    network("network-100-repulsion", 100, Couplings::LinkersAndContacts),
-    network("network-100-crosslinkers", 100, Couplings::Crosslinkers),
+    network(
+        "network-20",
+        Network {
+            filaments: 20,
+            ..NETWORK
+        },
+    ),
+    network("network-100", NETWORK),
+    network(
+        "network-500",
+        Network {
+            filaments: 500,
+            ..NETWORK
+        },
+    ),
+    network(
+        "network-2000",
+        Network {
+            filaments: 2000,
+            ..NETWORK
+        },
+    ),
+    network(
+        "network-500-1us",
+        Network {
+            filaments: 500,
+            step_ns: 1000.0,
+            ..NETWORK
+        },
+    ),
+    network(
+        "network-100-repulsion",
+        Network {
+            couplings: Couplings::LinkersAndContacts,
+            ..NETWORK
+        },
+    ),
+    network(
+        "network-100-crosslinkers",
+        Network {
+            couplings: Couplings::Crosslinkers,
+            ..NETWORK
+        },
+    ),
+    network(
+        "network-100-homogenised",
+        Network {
+            law: "Homogenised",
+            ..NETWORK
+        },
+    ),
 ];
 
 impl Case {

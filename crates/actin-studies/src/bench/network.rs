@@ -58,7 +58,12 @@ pub(super) fn run(
 }
 
 fn scene(network: Network, steps: u32) -> String {
-    let (filaments, step) = (network.filaments, network.step_ns);
+    let Network {
+        filaments,
+        law,
+        step_ns: step,
+        ..
+    } = network;
     let edge = EDGE_NM * (filaments as f64 / 500.0).cbrt();
     let linkers = "linker_sets: [LinkersBetween(per_filament: 2.5, reach_nm: 100.0, stiffness_pn_per_nm: 0.2, seed: 2)],";
     let couplings = match network.couplings {
@@ -73,7 +78,7 @@ fn scene(network: Network, steps: u32) -> String {
     format!(
         "Scene(
             arrangements: [Random(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 1000.0, segments: 10)], rod: (law: Constant)),
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 1000.0, segments: 10)], rod: (law: {law})),
                 count: {filaments}, box_nm: ({edge:?}, {edge:?}, {edge:?}), apart_nm: 7.4, seed: 1,
             )],
             {couplings}

@@ -1,6 +1,7 @@
-//! Coefficients of the free energy at 298 K as polynomials in the inverse segment length:
+//! Coefficients of the free energy as polynomials in the inverse segment length and in temperature:
 //! `Homogenised::heated_rod`, whose documentation has the formula.
 
+use super::heat;
 use super::region::{Region, evenly};
 use actin_cosserat::{Homogenised, Term};
 use actin_draw::report::save;
@@ -28,6 +29,8 @@ const LEAST: [f64; 2] = [100.0, 400.0];
 const CLIPPED: f64 = 0.05;
 /// Regularisation of the scaled normal equations.
 const RIDGE: f64 = 1e-10;
+/// Thousandths of a unit.
+const PER_MILLI: f64 = 1e3;
 /// Strains per load at a free end: number of Newton steps.
 const NEWTON_STEPS: usize = 30;
 
@@ -213,7 +216,18 @@ fn clipped(values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Computes the coefficients for the temperature of the law of the cells.
+/// Derivative (pN/K) of the free energy of cells with respect to temperature.
+fn by_temperature(out: &Path, strains: &[SixVector]) -> Result<Vec<f64>, String> {
+    let [cold_k, hot_k] = Homogenised::HEATED_RANGE_K;
+    let (cold, hot) = (heat::law(out, cold_k)?, heat::law(out, hot_k)?);
+    let difference = |s: &SixVector| hot.energy_density(s) - cold.energy_density(s);
+    Ok(strains
+        .iter()
+        .map(|s| PER_MILLI * difference(s) / (hot_k - cold_k))
+        .collect())
+}
+
+/// Computes the functions that are added to the law of the cells.
 pub(super) fn run(out: &Path) -> Result<(), String> {
     let cell = Homogenised::mean_filament_at_298_k();
     let mut table =
@@ -229,6 +243,7 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
     let staggered: Vec<f64> = here.par_iter().map(Tangents::staggered).collect();
     let d = fitted("D", &all, &plain)?;
     let d_s = fitted("D_s", &all, &staggered)?;
+    let per_kelvin = fitted("dW/dT (0.001 pN/K)", &all, &by_temperature(out, &all)?)?;
     let stiff: Vec<SixVector> = all
         .into_iter()
         .filter(|s| least(cell, s) > LEAST[1])
@@ -251,26 +266,47 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
     )?;
     println!("{table}");
     save(out, "mesh.md", &table)?;
-    let by_power = by_power([d, d_s], [x_cc, x_sc, x_ss]);
-    save(out, "mean_filament_298_k_by_segment.csv", &lines(&by_power))
+    let added = added(per_kelvin, [d, d_s], [x_cc, x_sc, x_ss]);
+    save(out, "heated_rods.csv", &lines(&added))
 }
 
 fn thermal_energy() -> f64 {
     BOLTZMANN_PN_NM_PER_K * Homogenised::HEATED_K
 }
 
-/// Terms of each inverse power of the segment length.
-fn by_power(
+/// A function that is added to the law of the cells, at 298 K.
+struct Added {
+    /// Power of `kT`, or 0 for the derivative with respect to temperature.
+    order: u32,
+    /// Inverse power of the segment length.
+    power: u32,
+    factor: f64,
+    function: Homogenised,
+}
+
+fn added(
+    per_kelvin: Homogenised,
     [d, d_s]: [Homogenised; 2],
     [x_cc, x_sc, x_ss]: [Homogenised; 3],
-) -> [Vec<(f64, Homogenised)>; 3] {
+) -> Vec<Added> {
     let kt = thermal_energy();
-    let (cell_nm, second) = (PERIOD as f64 * constants::RISE, kt * kt / 8.0);
-    [
-        vec![(0.5 * kt / cell_nm, d), (second / cell_nm.powi(2), x_cc)],
-        vec![(-0.5 * kt, d_s), (-2.0 * second / cell_nm, x_sc)],
-        vec![(second, x_ss)],
+    let (per_cell, second) = ((PERIOD as f64 * constants::RISE).recip(), kt * kt / 8.0);
+    vec![
+        (0, 0, PER_MILLI.recip(), per_kelvin),
+        (1, 0, 0.5 * kt * per_cell, d),
+        (1, 1, -0.5 * kt, d_s),
+        (2, 0, second * per_cell * per_cell, x_cc),
+        (2, 1, -2.0 * second * per_cell, x_sc),
+        (2, 2, second, x_ss),
     ]
+    .into_iter()
+    .map(|(order, power, factor, function)| Added {
+        order,
+        power,
+        factor,
+        function,
+    })
+    .collect()
 }
 
 fn deviation(values: &[f64]) -> f64 {
@@ -284,20 +320,16 @@ fn deviation(values: &[f64]) -> f64 {
         .sqrt()
 }
 
-fn lines(by_power: &[Vec<(f64, Homogenised)>]) -> String {
+fn lines(added: &[Added]) -> String {
     let mut text = String::new();
-    for (power, parts) in by_power.iter().enumerate() {
+    for one in added {
         for term in Term::ALL {
-            let sum = |k: usize| -> f64 {
-                parts
-                    .iter()
-                    .map(|(factor, law)| factor * law.coefficients(term)[k])
-                    .sum()
-            };
-            let numbers: Vec<String> = (0..=term.degree())
-                .map(|k| format!("{:.10e}", sum(k)))
+            let numbers = one.function.coefficients(term).iter();
+            let numbers: Vec<String> = numbers
+                .map(|number| format!("{:.10e}", one.factor * number))
                 .collect();
-            let _ = writeln!(text, "{power} {term:?},{}", numbers.join(","));
+            let Added { order, power, .. } = one;
+            let _ = writeln!(text, "{order} {power} {term:?},{}", numbers.join(","));
         }
     }
     text

@@ -339,8 +339,13 @@ mod tests {
             )"
         );
         let scene = Scene::from_ron(&text).unwrap();
-        let mut strand =
-            Strand::new((0, &scene.filament), ([None; 2], Vec::new()), 0, true).unwrap();
+        let mut strand = Strand::new(
+            (0, &scene.filament),
+            ([None; 2], Vec::new()),
+            0,
+            Some(298.0),
+        )
+        .unwrap();
         strand.push_bodies(&mut SceneParts::default()).unwrap();
         ask(&strand)
     }

@@ -54,7 +54,7 @@ impl<'a> Strand<'a> {
         (index, filament): (usize, &'a Filament),
         (clamps, couples_nm): ([Option<&Clamp>; 2], Vec<f64>),
         first_section: usize,
-        in_bath: bool,
+        bath_k: Option<f64>,
     ) -> Result<Self, SceneProblem> {
         let monomers = &filament.monomers;
         let density = monomers.mass_ag / monomers.rise_nm;
@@ -63,7 +63,7 @@ impl<'a> Strand<'a> {
         let is_held = holds.map(|hold| hold.is_some());
         let resolved = resolve(filament, is_held)?;
         let segments = segments(filament, &resolved)?;
-        let laws = laws(filament, &resolved, in_bath.then_some(segments.as_slice()))?;
+        let laws = laws(filament, (&resolved, &segments), bath_k)?;
         Ok(Self {
             index,
             filament,
@@ -487,14 +487,17 @@ fn segments_of_rod(
 /// Law of each section. `heated` contains the numbers of segments in a heat bath.
 fn laws(
     filament: &Filament,
-    resolved: &[ResolvedSection],
-    heated: Option<&[usize]>,
+    (resolved, segments): (&[ResolvedSection], &[usize]),
+    bath_k: Option<f64>,
 ) -> Result<Vec<law::Law>, SceneProblem> {
     let sections = filament.sections.iter().zip(resolved).enumerate();
     let laws = sections.map(|(i, (section, place))| {
-        let count = heated.map(|counts| counts[i]).filter(|&count| count > 0);
-        let segment_nm = count.map(|count| place.length_nm() / count as f64);
-        law::Law::of_section((i, section), filament, segment_nm)
+        let bath_k = bath_k.filter(|_| segments[i] > 0);
+        let heated = bath_k.map(|temperature_k| law::HeatedSegments {
+            segment_nm: place.length_nm() / segments[i] as f64,
+            temperature_k,
+        });
+        law::Law::of_section((i, section), filament, heated)
     });
     laws.collect()
 }

@@ -6,6 +6,7 @@ mod law;
 mod natural;
 mod table;
 
+use actin_cosserat::Homogenised;
 use actin_sim::BOLTZMANN_PN_NM_PER_K;
 use actin_sim::ellipsoid::Heat;
 use std::path::Path;
@@ -25,6 +26,13 @@ pub(super) fn run(out: &Path, temperature_k: f64, quick: bool) -> Result<(), Str
         law::run(out, temperature_k, &rows)?;
     }
     table::run(out, kt, quick)
+}
+
+/// Law at a temperature, from samples in a folder of their own.
+pub(super) fn law(out: &Path, temperature_k: f64) -> Result<Homogenised, String> {
+    let out = out.join(format!("{temperature_k}_k"));
+    let rows = grid::compute(&out, BOLTZMANN_PN_NM_PER_K * temperature_k, false)?;
+    law::fit(&rows)
 }
 
 fn heat(kt: f64, samples: usize, stream: u64) -> Heat {
