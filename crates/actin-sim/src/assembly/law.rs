@@ -248,8 +248,8 @@ pub(crate) struct HeatedSegments {
 }
 
 /// Potential of a law `Homogenised`. Without a bath, the law at 298 K is the free energy of the cells,
-/// which contains all fluctuations up to 36 nm. At temperatures beyond those of the law
-/// (`Homogenised::HEATED_RANGE_K`), it is that of the nearest.
+/// which contains all fluctuations up to 36 nm. Beyond the temperatures of the law
+/// (`Homogenised::HEATED_RANGE_K`), the law at the nearest of them is used.
 ///
 /// # Errors
 /// The length of the segments, if it is too short.

@@ -28,7 +28,7 @@ pub(super) fn run(out: &Path, temperature_k: f64, quick: bool) -> Result<(), Str
     table::run(out, kt, quick)
 }
 
-/// Law at a temperature, from samples in a folder of their own.
+/// Law at a temperature, from samples in a separate folder.
 pub(super) fn law(out: &Path, temperature_k: f64) -> Result<Homogenised, String> {
     let out = out.join(format!("{temperature_k}_k"));
     let rows = grid::compute(&out, BOLTZMANN_PN_NM_PER_K * temperature_k, false)?;
