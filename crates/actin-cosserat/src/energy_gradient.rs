@@ -209,11 +209,21 @@ impl Interaction for EnergyGradient {
 }
 
 impl EnergyGradient {
-    /// As `add_stiffness`, with rotations about the axis coupled to each other and to stretch alone.
+    /// As `add_stiffness`, with axial rotations coupled to each other and to stretch alone.
     pub(crate) fn add_stiffness_without_spin(&self, state: &State, stiffness: &mut Stiffness) {
-        stiffness.extend_without_spin(true, |own| self.add_stiffness(state, own));
-        if let Some(segments) = &self.extended {
-            segments.add_twist_stretch(self.rod(), state, stiffness);
+        match &self.extended {
+            None => {
+                stiffness.extend_without_spin(true, |own| self.add_shear_stiffness(state, own));
+            }
+            Some(segments) => segments.add_stiffness_without_spin(self.rod(), state, stiffness),
+        }
+        stiffness.extend_without_spin(true, |own| self.add_joint_stiffness(state, own));
+    }
+
+    fn add_joint_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        self.add_bending_stiffness(state, stiffness);
+        for end in self.end_twists() {
+            end.add_stiffness(&self.material, state, stiffness);
         }
     }
 }
@@ -224,9 +234,6 @@ impl SecondOrder for EnergyGradient {
             None => self.add_shear_stiffness(state, stiffness),
             Some(segments) => segments.add_stiffness(self.rod(), state, stiffness),
         }
-        self.add_bending_stiffness(state, stiffness);
-        for end in self.end_twists() {
-            end.add_stiffness(&self.material, state, stiffness);
-        }
+        self.add_joint_stiffness(state, stiffness);
     }
 }

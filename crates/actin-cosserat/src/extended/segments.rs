@@ -193,42 +193,63 @@ impl ExtendedSegments {
 
     pub(crate) fn add_stiffness(
         &self,
-        (layout, material): (&RodLayout, &RodMaterial),
+        rod: (&RodLayout, &RodMaterial),
         state: &State,
         stiffness: &mut Stiffness,
     ) {
-        for k in 0..layout.segments() {
+        for (segment, jet) in self.jets(rod, state) {
+            push_stiffness(&segment, &jet, state, stiffness);
+        }
+    }
+
+    /// As `add_stiffness`, with axial rotations coupled to each other and, with directors along the
+    /// segments, to stretch.
+    pub(crate) fn add_stiffness_without_spin(
+        &self,
+        rod: (&RodLayout, &RodMaterial),
+        state: &State,
+        stiffness: &mut Stiffness,
+    ) {
+        for (segment, jet) in self.jets(rod, state) {
+            stiffness.extend_without_spin(true, |own| push_stiffness(&segment, &jet, state, own));
+            push_twist_stretch(&segment, &jet, state, stiffness);
+        }
+    }
+
+    fn jets<'a>(
+        &'a self,
+        (layout, material): (&'a RodLayout, &'a RodMaterial),
+        state: &'a State,
+    ) -> impl Iterator<Item = (Segment<'a>, SegmentJet)> {
+        (0..layout.segments()).map(move |k| {
             let segment = self.segment(k, layout, state);
             let jet = self.law.jet(material, segment.strain(), segment.curvature);
             let jet = jet.of_scaled(segment.factors);
-            let own =
-                (segment.element).stiffness_of(jet.force, jet.by_strain, (segment.q, segment.l));
-            own.push(segment.points, segment.frame, stiffness);
-            push_curvature(&segment, &jet, state, stiffness);
-        }
+            (segment, jet)
+        })
     }
 }
 
-impl ExtendedSegments {
-    /// Adds the coupling of axial rotations to stretch, with directors along the segments.
-    pub(crate) fn add_twist_stretch(
-        &self,
-        (layout, material): (&RodLayout, &RodMaterial),
-        state: &State,
-        stiffness: &mut Stiffness,
-    ) {
-        for k in 0..layout.segments() {
-            let segment = self.segment(k, layout, state);
-            let jet = self.law.jet(material, segment.strain(), segment.curvature);
-            let axis = segment.q * Vector3::z() * jet.mixed[(2, 2)];
-            for around in segment.around {
-                for (frame, slope) in curvature_slopes(around, state) {
-                    for (point, sign) in segment.points.into_iter().zip([-1.0, 1.0]) {
-                        let mut block = Matrix3::zeros();
-                        block.set_column(2, &(axis * (sign * slope[(2, 2)])));
-                        stiffness.push(Coordinates::Point(point), frame, block);
-                    }
-                }
+fn push_stiffness(segment: &Segment, jet: &SegmentJet, state: &State, stiffness: &mut Stiffness) {
+    let own = (segment.element).stiffness_of(jet.force, jet.by_strain, (segment.q, segment.l));
+    own.push(segment.points, segment.frame, stiffness);
+    push_curvature(segment, jet, state, stiffness);
+}
+
+/// Adds the coupling of axial rotations to stretch.
+fn push_twist_stretch(
+    segment: &Segment,
+    jet: &SegmentJet,
+    state: &State,
+    stiffness: &mut Stiffness,
+) {
+    let axis = segment.q * Vector3::z() * jet.mixed[(2, 2)];
+    for around in segment.around {
+        for (frame, slope) in curvature_slopes(around, state) {
+            for (point, sign) in segment.points.into_iter().zip([-1.0, 1.0]) {
+                let mut block = Matrix3::zeros();
+                block.set_column(2, &(axis * (sign * slope[(2, 2)])));
+                stiffness.push(Coordinates::Point(point), frame, block);
             }
         }
     }

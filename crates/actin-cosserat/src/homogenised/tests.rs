@@ -236,7 +236,7 @@ fn strains_in_range(law: &Homogenised, [shortest, longest]: [f64; 2]) -> Vec<Six
     (1..4000).map(strain).collect()
 }
 
-/// Loads by finite differences of the energy, tangent by those of the loads. The bounds are the truncation of central
+/// Loads by finite differences of the energy, tangent by finite differences of the loads. The bounds are the truncation of central
 /// differences over 1e-5.
 pub(super) fn assert_derivatives(law: &Homogenised) {
     for n in 0..40 {
