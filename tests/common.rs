@@ -5,7 +5,7 @@ use actin_sim::{Assembly, Failure, Outcome, Plan, RunError, Scene, Trajectory};
 
 pub(crate) fn build(text: &str) -> Assembly {
     let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
+    actin_sim::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
 }
 
 /// Runs an assembly and leaves it in its last state. Returns the records also of a failed run.

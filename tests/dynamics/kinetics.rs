@@ -136,3 +136,25 @@ fn lifetimes_without_load_do_not_depend_on_stiffness() {
         }
     }
 }
+
+#[test]
+fn unbound_linkers_have_no_tension() {
+    let text = "Scene(
+        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0)]),
+        linkers: [Linker(at_nm: 40.0, displaced_nm: (5.0, 0.0, 0.0), stiffness_pn_per_nm: 2.0,
+            kinetics: Kinetics(seed: 5, bound: BOUND, breaks: Breaking(rate_per_ns: 1e-9),
+            forms: Forming(rate_per_ns: 1e-9, reach_nm: 10.0)))],
+        observe: [Linker(linker: 0)],
+        task: Dynamics(duration_ns: 1e-3),
+    )";
+    for (bound, tension) in [("true", 10.0), ("false", 0.0)] {
+        let (_, trajectory, _) = ran(&text.replace("BOUND", bound));
+        let observed = &trajectory.records[0].observed;
+        let expected = [tension, 0.0, 0.0, tension, 5.0];
+        let is_near = observed
+            .iter()
+            .zip(expected)
+            .all(|(x, y)| (x - y).abs() < 1e-12);
+        assert!(is_near, "{bound}: {observed:?}");
+    }
+}

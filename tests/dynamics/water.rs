@@ -1,8 +1,10 @@
 //! Inertial motion in water compared with overdamped motion.
 
 use crate::common::{build, ran};
+use actin_brownian::Cylinder;
 use actin_sim::mechanics::Vector3;
-use actin_sim::{End, Plan, Record};
+use actin_sim::{End, Fluid, Plan, Record};
+use std::f64::consts::PI;
 
 fn tips(sections: &str, force_pn: f64, task: &str) -> (Vec<Vector3>, u64) {
     let text = format!(
@@ -130,4 +132,46 @@ fn steps_in_water_depend_on_the_stiffness() {
     assert!(!is_relaxing && water.1);
     assert!((water.0 / verlet - 1.0).abs() < 1e-12);
     planned(", drag: Water(), thermal: (temperature_k: 298.0, seed: 1)");
+}
+
+/// A free filament with a trapped bead relaxes at the rate of the trap over the friction. Bodies
+/// that move with the bead have the transverse friction of the filament in addition.
+#[test]
+fn trapped_beads_have_the_friction_of_spheres() {
+    let (radius, stiffness) = (500.0, 0.05);
+    let sphere = 6.0 * PI * 0.89 * radius;
+    for (section, distance) in [("Rod", 0.0), ("Rod", 20.0), ("Ellipsoids", 20.0)] {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [{section}(from_nm: 0.0, to_nm: 60.0)], rod: (law: Constant)),
+                beads: [Bead(site: Site(at_nm: 30.0, radius_nm: {distance:?}, azimuth_deg: 50.0), radius_nm: {radius:?})],
+                linkers: [Linker(at_nm: 30.0, radius_nm: {distance:?}, azimuth_deg: 50.0,
+                    displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: {stiffness:?})],
+                task: Brownian(duration_ms: 1.0, temperature_k: 0.0),
+            )"
+        );
+        let assembly = build(&text);
+        let friction = assembly.friction(&Fluid::default()).unwrap();
+        let dashpot = friction.dashpots.last().unwrap();
+        let centre = assembly.linkers[0].site().position(&assembly.rest);
+        let arm = assembly.rest.frames.orientation.get(dashpot.frame) * dashpot.arm;
+        let weighted = dashpot
+            .points
+            .map(|(i, w)| assembly.rest.points.position.get(i) * w);
+        assert!((weighted[0] + weighted[1] + arm - centre).norm() < 1e-12);
+        assert!((dashpot.friction.x - sphere).abs() < 1e-9);
+        // Times of 1e5 ns are not resolved with monomers, whose shortest time is 1e-4 ns.
+        if section == "Ellipsoids" {
+            continue;
+        }
+        let length = assembly.length_nm();
+        let across = Cylinder::new(0.89, length, 3.5).unwrap().across() * length;
+        let plan = Plan::new(&assembly).unwrap();
+        let slowest = plan.relaxation_times().unwrap().unwrap().slowest_ns;
+        let expected = (sphere + across) / stiffness;
+        let error = slowest[0] / expected - 1.0;
+        println!("{section} at {distance} nm: {error:e}");
+        // The filament bends by the ratio of the stiffness of the trap to its own.
+        assert!(error.abs() < 1e-5, "{section}: {error:e}");
+    }
 }

@@ -16,6 +16,7 @@ mod helical;
 mod homogenised;
 mod joined;
 mod linkers;
+mod long_segments;
 mod lost_twist;
 mod observed;
 mod reciprocity;

@@ -17,6 +17,7 @@ mod cylinder;
 mod flow;
 mod friction;
 mod langevin;
+mod limits;
 mod progress;
 mod relaxation;
 mod stepper;
@@ -26,8 +27,9 @@ pub use cylinder::{Cylinder, CylinderError};
 pub use flow::Flow;
 pub use friction::{Dashpot, Friction, TurnDashpot};
 pub use langevin::Langevin;
+pub use limits::StepLimits;
 pub use relaxation::Relaxation;
-pub use stepper::{Brownian, BrownianError, StepLimits};
+pub use stepper::{Brownian, BrownianError};
 
 pub use actin_equilibrium::{BodyOrder, Layout};
 /// Re-export of the crate of the run loop.

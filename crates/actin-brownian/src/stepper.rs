@@ -99,7 +99,7 @@ use crate::components::{Components, couples_by_distance};
 use crate::friction::Velocities;
 use crate::progress::Progress;
 use crate::stress::Stresses;
-use crate::{Flow, Friction};
+use crate::{Flow, Friction, StepLimits};
 use actin_equilibrium::{ImplicitSolver, Layout, SolveError, StepSize};
 use actin_integrate::{Body, FailureKind, Noise, StepFailure, Stepper};
 use actin_mechanics::{Coordinates, Loads, Split, State, System, Thermostat, Vector3, rotation};
@@ -119,27 +119,6 @@ const HALVINGS: u32 = 8;
 
 /// Streams of noise per step: one for each part.
 const PARTS: u64 = 1 << (HALVINGS + 1);
-
-/// Convergence limits of a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepLimits {
-    /// Largest displacement (nm) of the last iteration, positive.
-    pub displacement: f64,
-    /// Largest rotation (rad) of the last iteration, positive.
-    pub rotation: f64,
-    /// Maximum number of iterations, at least 1.
-    pub iterations: usize,
-}
-
-impl Default for StepLimits {
-    fn default() -> Self {
-        Self {
-            displacement: 1e-3,
-            rotation: 1e-4,
-            iterations: 60,
-        }
-    }
-}
 
 /// Error of the construction of a stepper.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -524,12 +503,6 @@ fn turn(from: &State, to: &State, i: usize) -> Vector3 {
 fn spin(from: &State, to: &State, i: usize) -> f64 {
     let q = from.frames.orientation.get(i).inverse() * to.frames.orientation.get(i);
     2.0 * q.k.atan2(q.w)
-}
-
-impl StepLimits {
-    pub(crate) fn hold(&self, extent: &StepSize) -> bool {
-        extent.displacement <= self.displacement && extent.rotation <= self.rotation
-    }
 }
 
 impl Stepper for Brownian {

@@ -118,7 +118,7 @@ impl BuiltScene {
     pub(crate) fn open(source: &SceneArguments) -> Result<Self, Failure> {
         let ParsedScene { scene, text, name } = ParsedScene::new(source)?;
         let assembly =
-            Assembly::build(&scene).map_err(|problem| all(&name, &text, text.locate(&problem)))?;
+            actin_sim::build(&scene).map_err(|problem| all(&name, &text, text.locate(&problem)))?;
         Ok(Self {
             assembly,
             text,

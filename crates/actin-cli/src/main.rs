@@ -10,7 +10,6 @@ mod check;
 mod excerpt;
 mod export;
 mod failure;
-mod follow;
 mod manual;
 mod progress;
 mod report;

@@ -1,7 +1,8 @@
 //! `actin run`: runs a scene and writes its run directory.
 
+mod follow;
+
 use crate::failure::{BuiltScene, Failure};
-use crate::follow;
 use crate::progress::Progress;
 use crate::report::{in_words, print, print_remarks};
 use crate::signals;

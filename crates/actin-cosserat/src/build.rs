@@ -2,17 +2,8 @@
 
 use crate::layout::check_lengths;
 use crate::shape::from_z;
-use crate::{CrossSection, RodClamp, RodEnd, RodError, RodLayout};
+use crate::{CrossSection, RodClamp, RodEnd, RodError, RodLayout, Walls};
 use actin_mechanics::{Frame, Inertia, Point, State, UnitQuaternion, Vector3};
-
-/// Ends of a rod with a held wall frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Walls {
-    /// Before the first segment.
-    pub start: bool,
-    /// After the last segment.
-    pub end: bool,
-}
 
 /// A straight, unstrained rod.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,25 +1,15 @@
 //! Bodies and rest lengths of a rod in a state.
 
-use crate::{RodError, Walls};
-use std::fmt;
+use crate::{RodEnd, RodError};
 use std::ops::Range;
 
-/// An end of a rod.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RodEnd {
-    /// End with node 0.
-    Start,
-    /// End with the last node.
-    End,
-}
-
-impl fmt::Display for RodEnd {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Start => "start",
-            Self::End => "end",
-        })
-    }
+/// Ends of a rod with a held wall frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Walls {
+    /// Before the first segment.
+    pub start: bool,
+    /// After the last segment.
+    pub end: bool,
 }
 
 /// Bodies and rest lengths of a rod in a state.

@@ -34,12 +34,13 @@ mod material;
 mod paper_balance;
 mod random_stress;
 mod rigidities;
+mod rod_end;
 mod shape;
 mod shear;
 mod strain_laws;
 
 pub use bending::{BendingElement, BendingLoads, BendingStiffness};
-pub use build::{RotaryInertia, StraightRod, Walls};
+pub use build::{RotaryInertia, StraightRod};
 pub use clamp::{HeldBodies, RodClamp};
 pub use cross_section::CrossSection;
 pub use elements::{RodElements, RodJoint, RodSegment};
@@ -52,10 +53,11 @@ pub use law::{
     BendLaw, CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw,
     TanhTwist, TwistLaw, TwistRise, TwistStretch,
 };
-pub use layout::{RodEnd, RodLayout};
+pub use layout::{RodLayout, Walls};
 pub use material::RodMaterial;
 pub use paper_balance::PaperBalance;
 pub use rigidities::{Rigidities, RigidityFactors};
+pub use rod_end::RodEnd;
 pub use shear::{ShearElement, ShearLoads, ShearStiffness};
 pub use strain_laws::StrainLaws;
 

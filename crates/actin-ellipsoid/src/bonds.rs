@@ -87,7 +87,7 @@ impl Bonds {
                         lower,
                         upper,
                         bonds: table.bonds,
-                        rigidity: kind.parameters(model.parameters()).rigidity,
+                        rigidity: model.parameters().interface(kind).rigidity,
                     });
                 }
             }
@@ -106,7 +106,7 @@ impl Bonds {
         monomers: &Monomers,
         lowers: usize,
     ) -> Result<BondTable, InterfaceError> {
-        let parameters = kind.parameters(model.parameters());
+        let parameters = model.parameters().interface(kind);
         let (step, number) = (kind.steps(), parameters.bonds);
         let pairs = monomers.count.saturating_sub(step).min(lowers);
         if model.parameters().anchors.are_shared() && pairs > 0 {
@@ -206,6 +206,25 @@ impl Interaction for Bonds {
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
         assert_eq!(energies.len(), self.elements(), "one energy per interface");
         self.write_pairs(state, energies);
+    }
+}
+
+impl EllipsoidModel {
+    /// All bonds within a run of monomers.
+    ///
+    /// # Errors
+    /// As [`Self::interface`].
+    pub fn bonds(&self, monomers: &Monomers) -> Result<Bonds, InterfaceError> {
+        Bonds::new(self, *monomers, monomers.count)
+    }
+
+    /// Bonds of a run whose lower monomers are among the first `lowers`. They join a section with
+    /// its own parameters to the first monomers of the next section.
+    ///
+    /// # Errors
+    /// As [`Self::interface`].
+    pub fn bonds_above(&self, monomers: &Monomers, lowers: usize) -> Result<Bonds, InterfaceError> {
+        Bonds::new(self, *monomers, lowers)
     }
 }
 

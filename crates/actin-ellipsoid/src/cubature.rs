@@ -147,7 +147,7 @@ impl Cubature {
 
     /// Starts from the built-in points, then from random bonds.
     fn find(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Result<Self, CubatureError> {
-        let count = kind.parameters(parameters).bonds;
+        let count = parameters.interface(kind).bonds;
         let finder = Finder::new(parameters, kind)?;
         let known = Some(table::sites(kind)).filter(|sites| sites.len() == count);
         let starts = known.into_iter().chain(finder.drawn_starts(kind, count));
@@ -335,7 +335,7 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 fn numbers(parameters: &EllipsoidParameters, kind: InterfaceKind) -> [f64; 8] {
-    let interface = kind.parameters(parameters);
+    let interface = parameters.interface(kind);
     let [x, y, z] = parameters.semi_axes;
     [
         parameters.radius,

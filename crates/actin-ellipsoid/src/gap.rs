@@ -13,7 +13,7 @@ pub(crate) struct Gap {
 
 impl Gap {
     pub(crate) fn new(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Self {
-        let interface = kind.parameters(parameters);
+        let interface = parameters.interface(kind);
         Self {
             ellipsoid: Ellipsoid::new(parameters.semi_axes),
             neighbour: Helix::new(parameters).neighbour(kind),

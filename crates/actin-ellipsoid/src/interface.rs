@@ -3,10 +3,9 @@
 use crate::gap::Gap;
 use crate::stream::Stream;
 use crate::{
-    Anchors, Cubature, CubatureError, CubaturePoint, EllipsoidParameters, Helix,
-    InterfaceParameters, Neighbour,
+    Anchors, Bond, Cubature, CubatureError, CubaturePoint, EllipsoidParameters, Helix,
+    InterfaceKind, Neighbour,
 };
-use actin_mechanics::Vector3;
 use thiserror::Error;
 
 /// Consecutive rejected samples after which sampling fails. An interface that covers a fraction
@@ -15,62 +14,6 @@ const MAXIMUM_ATTEMPTS: u64 = 1_000_000;
 
 /// Additional samples per bond.
 const ATTEMPTS_PER_BOND: u64 = 1_000;
-
-/// Kind of interface between two monomers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum InterfaceKind {
-    /// Between monomers `i` and `i + 1`, of different strands.
-    Lateral,
-    /// Between monomers `i` and `i + 2`, of the same strand.
-    Longitudinal,
-}
-
-impl InterfaceKind {
-    /// Both kinds, in order of their index.
-    pub const ALL: [Self; 2] = [Self::Lateral, Self::Longitudinal];
-
-    /// Number of lattice steps from the lower to the upper monomer.
-    pub fn steps(self) -> usize {
-        match self {
-            Self::Lateral => 1,
-            Self::Longitudinal => 2,
-        }
-    }
-
-    /// Parameters of this kind of interface.
-    pub(crate) fn parameters(self, parameters: &EllipsoidParameters) -> &InterfaceParameters {
-        match self {
-            Self::Lateral => &parameters.lateral,
-            Self::Longitudinal => &parameters.longitudinal,
-        }
-    }
-
-    pub(crate) fn number(self) -> u64 {
-        match self {
-            Self::Lateral => 0,
-            Self::Longitudinal => 1,
-        }
-    }
-
-    /// Stream of the interface above `index`, unique for indices below 2^61; shared patterns have
-    /// separate streams.
-    fn stream_number(self, anchors: Anchors, index: i64) -> u64 {
-        if anchors.are_shared() {
-            2 | self.number()
-        } else {
-            (index.cast_unsigned() << 2) | self.number()
-        }
-    }
-}
-
-impl std::fmt::Display for InterfaceKind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Lateral => "lateral",
-            Self::Longitudinal => "longitudinal",
-        })
-    }
-}
 
 /// Error of the choice of bonds of an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -117,19 +60,6 @@ pub enum InterfaceError {
         /// Cause.
         reason: CubatureError,
     },
-}
-
-/// One bond: anchors, rest length and weight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bond {
-    /// Anchor on the lower monomer (nm, its body frame).
-    pub lower: Vector3,
-    /// Anchor on the upper monomer (nm, its body frame).
-    pub upper: Vector3,
-    /// Rest length (nm): length in the built filament.
-    pub rest_length: f64,
-    /// Fraction of the rigidity of the interface. The weights of an interface add up to 1.
-    pub weight: f64,
 }
 
 /// Bonds of one interface.
@@ -194,10 +124,10 @@ impl Interface {
         index: i64,
     ) -> Result<Self, InterfaceError> {
         let gap = Gap::new(parameters, kind);
-        let number = kind.stream_number(parameters.anchors, index);
+        let number = stream_number(kind, parameters.anchors, index);
         let mut stream = Stream::new(parameters.seed, parameters.sampling, number);
         let mut attempts = 0;
-        let wanted = kind.parameters(parameters).bonds;
+        let wanted = parameters.interface(kind).bonds;
         let most = MAXIMUM_ATTEMPTS + ATTEMPTS_PER_BOND * wanted as u64;
         let mut bonds = Vec::with_capacity(wanted);
         while bonds.len() < wanted {
@@ -242,6 +172,16 @@ fn draw_bond(
         maximum_nm: gap.maximum,
         attempts: MAXIMUM_ATTEMPTS,
     })
+}
+
+/// Stream of the interface above `index`, unique for indices below 2^61; shared patterns have
+/// separate streams.
+fn stream_number(kind: InterfaceKind, anchors: Anchors, index: i64) -> u64 {
+    if anchors.are_shared() {
+        2 | kind.number()
+    } else {
+        (index.cast_unsigned() << 2) | kind.number()
+    }
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod bond;
 mod bonds;
 mod cell;
 pub mod constants;
@@ -22,6 +23,7 @@ mod ellipsoid;
 mod gap;
 mod helix;
 mod interface;
+mod interface_kind;
 mod kernel;
 mod key;
 mod model;
@@ -31,6 +33,7 @@ mod quasi_harmonic;
 mod stream;
 mod table;
 
+pub use bond::Bond;
 pub use bonds::{Bonds, Pair};
 pub use cell::{
     Cell, CellError, CellResponse, Control, Displacements, Heat, HeatResponse, Hold, SixMatrix,
@@ -39,7 +42,8 @@ pub use cell::{
 pub use cubature::{Cubature, CubatureError, CubaturePoint, MomentCheck};
 pub use ellipsoid::Ellipsoid;
 pub use helix::{Helix, Neighbour};
-pub use interface::{Bond, Interface, InterfaceError, InterfaceKind};
+pub use interface::{Interface, InterfaceError};
+pub use interface_kind::InterfaceKind;
 pub use key::{EllipsoidKey, InterfaceKey};
 pub use model::EllipsoidModel;
 pub use monomers::{LatticeError, Monomers, Placement};

@@ -1,8 +1,8 @@
 //! Ellipsoid model.
 
 use crate::{
-    Bonds, Ellipsoid, EllipsoidParameterError, EllipsoidParameters, Helix, Interface,
-    InterfaceError, InterfaceKind, LatticeError, Monomers, Placement,
+    Ellipsoid, EllipsoidParameterError, EllipsoidParameters, Helix, Interface, InterfaceError,
+    InterfaceKind, LatticeError, Monomers, Placement,
 };
 use actin_mechanics::{Inertia, State};
 
@@ -70,22 +70,5 @@ impl EllipsoidModel {
     /// [`InterfaceError`] if too few samples give a bond or the quadrature fails.
     pub fn interface(&self, kind: InterfaceKind, index: i64) -> Result<Interface, InterfaceError> {
         Interface::new(&self.parameters, kind, index)
-    }
-
-    /// All bonds within a run of monomers.
-    ///
-    /// # Errors
-    /// As [`Self::interface`].
-    pub fn bonds(&self, monomers: &Monomers) -> Result<Bonds, InterfaceError> {
-        Bonds::new(self, *monomers, monomers.count)
-    }
-
-    /// Bonds of a run whose lower monomers are among the first `lowers`. They join a section with
-    /// its own parameters to the first monomers of the next section.
-    ///
-    /// # Errors
-    /// As [`Self::interface`].
-    pub fn bonds_above(&self, monomers: &Monomers, lowers: usize) -> Result<Bonds, InterfaceError> {
-        Bonds::new(self, *monomers, lowers)
     }
 }

@@ -137,6 +137,14 @@ impl Default for EllipsoidParameters {
 }
 
 impl EllipsoidParameters {
+    /// Parameters of a kind of interface.
+    pub(crate) fn interface(&self, kind: InterfaceKind) -> &InterfaceParameters {
+        match kind {
+            InterfaceKind::Lateral => &self.lateral,
+            InterfaceKind::Longitudinal => &self.longitudinal,
+        }
+    }
+
     /// Default parameters with the given number of sampled bonds per interface, as in the paper.
     pub fn with_sampled_bonds(bonds: usize, seed: u64) -> Self {
         let mut parameters = Self {

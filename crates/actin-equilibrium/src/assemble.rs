@@ -3,7 +3,7 @@
 use crate::chain::Chain;
 use crate::group::Group;
 use crate::layout::{Layout, Node};
-use crate::links::{LinkBlock, Links};
+use crate::links::{Block, LinkBlock, Links};
 use crate::pattern::{BlockPosition, Pattern};
 use crate::ties::Ties;
 use actin_mechanics::{
@@ -349,8 +349,6 @@ impl Assembly {
         }
     }
 }
-
-pub(crate) type Block = (Coordinates, Coordinates, Matrix3);
 
 struct Target<'a> {
     values: &'a mut [f64],

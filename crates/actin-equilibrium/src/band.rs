@@ -5,7 +5,6 @@
     reason = "vector code must be compiled into the function that enables the instructions"
 )]
 
-use crate::gradients::dot;
 use actin_mechanics::wide::{Simd, WithSimd};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::cholesky::simplicial::SymbolicSimplicialCholesky;
@@ -250,6 +249,21 @@ fn scale_panel(own: &mut [f64], (rows, width): (usize, usize), reciprocals: &[f6
         }
         first += rows - p;
     }
+}
+
+/// Four partial sums allow parallel additions.
+#[inline]
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (a_chunks, a_rest) = a.as_chunks::<4>();
+    let (b_chunks, b_rest) = b.as_chunks::<4>();
+    for (a, b) in a_chunks.iter().zip(b_chunks) {
+        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+            *sum += a * b;
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@
 //! curvature: T. Steihaug, SIAM J. Numer. Anal. 20 (1983) 626.
 
 use crate::assemble::Assembly;
+use crate::band::dot;
 use crate::factor::Factor;
 use std::ops::Range;
 
@@ -163,21 +164,6 @@ impl Gradients {
 fn dot_in(columns: &[Range<usize>], a: &[f64], b: &[f64]) -> f64 {
     let columns = columns.iter().cloned();
     columns.map(|range| dot(&a[range.clone()], &b[range])).sum()
-}
-
-/// Four partial sums allow parallel additions.
-#[inline]
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (a_chunks, a_rest) = a.as_chunks::<4>();
-    let (b_chunks, b_rest) = b.as_chunks::<4>();
-    for (a, b) in a_chunks.iter().zip(b_chunks) {
-        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += a * b;
-        }
-    }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
 }
 
 /// `to = factor to + new`.

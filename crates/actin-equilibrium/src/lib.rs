@@ -19,7 +19,6 @@ struct WriteAnInteraction;
 mod assemble;
 mod band;
 mod certificate;
-mod certify;
 mod chain;
 mod descent;
 mod direction;
@@ -43,7 +42,6 @@ mod path_observer;
 mod path_options;
 mod pattern;
 mod relax;
-mod saddle;
 mod search;
 mod ties;
 
@@ -57,13 +55,13 @@ pub use mode::Mode;
 pub use motion::{ComponentStep, StepSize};
 pub use nearest::Nearest;
 pub use newton::Newton;
+pub use newton::Push;
 pub use options::{NewtonOptions, OptionsError};
 pub use outcome::{Convergence, Equilibrium, NewtonFailure, SolveError};
 pub use path::{Path, PathEnd, PathError, PathFailure};
 pub use path_observer::{PathCheckpoint, PathObserver, PathPoint};
 pub use path_options::{Jumps, PathOptions, Saddles};
 pub use relax::{EquilibriumError, relax};
-pub use saddle::Push;
 pub use search::{KnownEquilibrium, Search, SearchObserver, SearchResult, StableEquilibrium};
 
 /// Points, frames, loads and interactions.

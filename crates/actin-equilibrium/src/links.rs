@@ -1,11 +1,12 @@
 //! Stiffness blocks of links, which may couple other bodies at each state.
 
-use crate::assemble::Block;
 use crate::layout::Layout;
 use crate::pattern::{BlockPosition, Pattern};
-use actin_mechanics::Coordinates;
+use actin_mechanics::{Coordinates, Matrix3};
 use nalgebra::Matrix6;
 use std::ops::Range;
+
+pub(crate) type Block = (Coordinates, Coordinates, Matrix3);
 
 /// Block of a link in the unknowns; the transposed block is implied.
 #[derive(Clone, Debug)]

@@ -18,8 +18,10 @@
 //! J. Nocedal and S. J. Wright, Numerical Optimization, 2nd ed. (2006), sections 3.4 (modified
 //! Cholesky) and 15.6 (watchdog).
 
+mod certify;
+mod saddle;
+
 use crate::certificate::Certificate;
-use crate::certify::certify;
 use crate::descent::Descent;
 use crate::direction::Solver;
 use crate::history::{Iteration, SolverWork, Verdict};
@@ -27,9 +29,11 @@ use crate::layout::Layout;
 use crate::load_scale::{LoadScale, is_loaded};
 use crate::options::{NewtonOptions, OptionsError};
 use crate::outcome::{Convergence, Equilibrium, NewtonFailure, SolveError};
-use crate::saddle::leave_saddle;
 use actin_mechanics::Residual;
 use actin_mechanics::{Interaction, Loads, State};
+use certify::certify;
+pub use saddle::Push;
+use saddle::leave_saddle;
 use std::ops::ControlFlow;
 
 /// Multiple of the rounding error considered negligible.

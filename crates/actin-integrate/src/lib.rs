@@ -23,7 +23,6 @@ mod diagnosis;
 mod drag;
 mod environment;
 mod error;
-mod execution;
 mod failure;
 mod frequency;
 mod lanczos;

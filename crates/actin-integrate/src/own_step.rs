@@ -1,5 +1,4 @@
-use crate::execution::Execution;
-use crate::{Body, Checkpoint, FailureKind, Observer, Run, RunFailure, RunOutcome};
+use crate::{Body, FailureKind};
 use actin_mechanics::System;
 use thiserror::Error;
 
@@ -30,37 +29,4 @@ pub struct StepFailure {
     pub problem: FailureKind,
     /// Body at which the step failed.
     pub body: Body,
-}
-
-impl Run {
-    /// Advances `system` with the steps of `stepper`, like [`execute`](Self::execute). The method,
-    /// drag and heat bath of the run are ignored.
-    ///
-    /// # Errors
-    /// See [`execute`](Self::execute). Also if a step fails.
-    pub fn execute_steps(
-        &self,
-        stepper: &mut dyn Stepper,
-        system: &mut System,
-        observers: &mut [&mut dyn Observer],
-    ) -> Result<RunOutcome, RunFailure> {
-        Execution::new(self, Some(stepper), system, observers).run()
-    }
-
-    /// Continues from `checkpoint` with the steps of `stepper`, like [`resume`](Self::resume).
-    ///
-    /// # Errors
-    /// See [`execute_steps`](Self::execute_steps).
-    ///
-    /// # Panics
-    /// See [`resume`](Self::resume).
-    pub fn resume_steps(
-        &self,
-        checkpoint: &Checkpoint,
-        stepper: &mut dyn Stepper,
-        system: &mut System,
-        observers: &mut [&mut dyn Observer],
-    ) -> Result<RunOutcome, RunFailure> {
-        Execution::resume(self, checkpoint, Some(stepper), system, observers).run_on()
-    }
 }

@@ -1,9 +1,12 @@
-use crate::execution::Execution;
+mod execution;
+
+use crate::Stepper;
 use crate::{
     Bath, Checkpoint, Composition, Drag, Observer, RunFailure, RunOutcome, StopRule, advance,
     advance_in,
 };
 use actin_mechanics::{System, Thermostat};
+use execution::Execution;
 use thiserror::Error;
 
 /// Default number of steps between observations.
@@ -281,6 +284,37 @@ impl Run {
         observers: &mut [&mut dyn Observer],
     ) -> Result<RunOutcome, RunFailure> {
         Execution::resume(self, checkpoint, None, system, observers).run_on()
+    }
+
+    /// Advances `system` with the steps of `stepper`, like [`execute`](Self::execute). The method,
+    /// drag and heat bath of the run are ignored.
+    ///
+    /// # Errors
+    /// See [`execute`](Self::execute). Also if a step fails.
+    pub fn execute_steps(
+        &self,
+        stepper: &mut dyn Stepper,
+        system: &mut System,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<RunOutcome, RunFailure> {
+        Execution::new(self, Some(stepper), system, observers).run()
+    }
+
+    /// Continues from `checkpoint` with the steps of `stepper`, like [`resume`](Self::resume).
+    ///
+    /// # Errors
+    /// See [`execute_steps`](Self::execute_steps).
+    ///
+    /// # Panics
+    /// See [`resume`](Self::resume).
+    pub fn resume_steps(
+        &self,
+        checkpoint: &Checkpoint,
+        stepper: &mut dyn Stepper,
+        system: &mut System,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<RunOutcome, RunFailure> {
+        Execution::resume(self, checkpoint, Some(stepper), system, observers).run_on()
     }
 
     pub(crate) fn advance(&self, system: &mut impl Thermostat, first_step: u64, steps: u64) {

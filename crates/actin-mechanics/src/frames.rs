@@ -3,7 +3,8 @@
 mod drift;
 
 use crate::inertia::is_inertia;
-use crate::vectors::{self, damp_where, sum_in_lanes};
+use crate::sums::add_scaled;
+use crate::vectors::{damp_where, sum_in_lanes};
 use crate::{Inertia, Quaternions, Shared, UnitQuaternion, Vector3, Vectors, wide};
 use drift::Drift;
 
@@ -159,7 +160,7 @@ impl Frames {
 
     /// Applies the body torques `torque` for a time `h`.
     pub fn kick(&mut self, torque: &Vectors, h: f64) {
-        vectors::add_scaled(
+        add_scaled(
             &mut self.angular_momentum,
             torque,
             &self.inertias.mobility,

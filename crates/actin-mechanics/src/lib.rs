@@ -14,6 +14,7 @@ struct Readme;
 
 mod controls;
 mod couple;
+mod drive;
 mod energy_balance;
 mod frames;
 mod inertia;
@@ -35,6 +36,7 @@ mod spring;
 mod state;
 mod stats;
 mod stiffness;
+mod sums;
 mod system;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;
@@ -44,6 +46,7 @@ pub mod wide;
 
 pub use controls::{ControlId, Controls};
 pub use couple::{Couple, CoupleKind};
+pub use drive::Drive;
 pub use energy_balance::EnergyBalance;
 pub use frames::{Frame, Frames};
 pub use inertia::{Axis, Inertia, InertiaError};
@@ -63,7 +66,7 @@ pub use spring::{Hooke, Spring, SpringError, Springs};
 pub use state::State;
 pub use stats::StateStats;
 pub use stiffness::{Coordinates, SecondOrder, Stiffness};
-pub use system::{Drive, Split, StepEnd, System, Thermostat};
+pub use system::{Split, StepEnd, System, Thermostat};
 pub use vectors::Vectors;
 pub use weight::Weight;
 

@@ -1,6 +1,6 @@
 //! Forces on points and torques on frames.
 
-use crate::vectors::add_product;
+use crate::sums::add_product;
 use crate::{Residual, State, Vectors};
 
 /// Loads on a [`State`].

@@ -1,7 +1,8 @@
 //! Points: positions with a mass.
 
 use crate::inertia::is_inertia;
-use crate::vectors::{self, damp_where, sum_in_lanes};
+use crate::sums::{add_product, add_scaled};
+use crate::vectors::{damp_where, sum_in_lanes};
 use crate::{Shared, Vector3, Vectors};
 use std::collections::BTreeMap;
 
@@ -148,12 +149,12 @@ impl Points {
 
     /// Moves every point along its velocity for a time `h`.
     pub fn drift(&mut self, h: f64) {
-        vectors::add_product(&mut self.position, &self.velocity, h);
+        add_product(&mut self.position, &self.velocity, h);
     }
 
     /// Applies the forces `force` for a time `h`.
     pub fn kick(&mut self, force: &Vectors, h: f64) {
-        vectors::add_scaled(&mut self.velocity, force, &self.masses.inverse, h);
+        add_scaled(&mut self.velocity, force, &self.masses.inverse, h);
     }
 
     /// Adds `deviates / sqrt(mass)` to the velocity of each free point.

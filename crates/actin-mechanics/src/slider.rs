@@ -1,7 +1,7 @@
 //! Held points that slide together as one rigid body.
 
 use crate::inertia::is_inertia;
-use crate::{State, Vector3, Vectors};
+use crate::{Points, Vector3, Vectors};
 
 /// Points with constant relative positions that move together along `directions`.
 ///
@@ -91,8 +91,8 @@ impl Slider {
         }
     }
 
-    pub(crate) fn kinetic_energy(&self, state: &State) -> f64 {
-        let v = self.sliding_velocity(&state.points.velocity);
+    pub(crate) fn kinetic_energy(&self, points: &Points) -> f64 {
+        let v = self.sliding_velocity(&points.velocity);
         0.5 * self.mass * v.norm_squared()
     }
 }
@@ -100,6 +100,7 @@ impl Slider {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::State;
     use crate::testing::push_point;
     use crate::{PointLoad, Split, System};
 

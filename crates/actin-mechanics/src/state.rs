@@ -41,7 +41,11 @@ impl State {
 
     /// Kinetic energies of free and sliding points, and of free frames.
     pub(crate) fn kinetic_energies(&self) -> (f64, f64) {
-        let sliding: f64 = self.sliders.iter().map(|s| s.kinetic_energy(self)).sum();
+        let sliding: f64 = self
+            .sliders
+            .iter()
+            .map(|s| s.kinetic_energy(&self.points))
+            .sum();
         let points = self.points.kinetic_energy() + sliding;
         (points, self.frames.kinetic_energy())
     }

@@ -35,7 +35,11 @@ impl State {
     /// assert!(!state.stats().kinetic_energy.is_finite());
     /// ```
     pub fn stats(&self) -> StateStats {
-        let sliding: f64 = self.sliders.iter().map(|s| s.kinetic_energy(self)).sum();
+        let sliding: f64 = self
+            .sliders
+            .iter()
+            .map(|s| s.kinetic_energy(&self.points))
+            .sum();
         let of_bodies = wide::dispatch(Pass(self));
         StateStats {
             kinetic_energy: of_bodies.kinetic_energy + sliding,
@@ -158,7 +162,11 @@ mod tests {
             let state = moving(bodies);
             let spins = (0..bodies).map(|i| spin_squared(&state, i));
             let (spin, kinetic) = (spins.fold(0.0, f64::max), state.kinetic_energy());
-            let sliding: f64 = state.sliders.iter().map(|s| s.kinetic_energy(&state)).sum();
+            let sliding: f64 = state
+                .sliders
+                .iter()
+                .map(|s| s.kinetic_energy(&state.points))
+                .sum();
             for arch in architectures() {
                 let survey = arch.dispatch(Pass(&state));
                 // Rounding of a sum of positive terms.

@@ -1,7 +1,7 @@
 //! A state with its interactions, split into drift and kick.
 
 use crate::energy_balance::work_on_free;
-use crate::{EnergyBalance, Interaction, Loads, Motion, Residual, State, Vectors};
+use crate::{Drive, EnergyBalance, Interaction, Loads, Motion, Residual, State, Vectors};
 use std::sync::Arc;
 
 /// Interface between integrators and systems.
@@ -71,26 +71,6 @@ pub trait Thermostat: Split {
 
     /// Applies the events at the end of time step `step` (counted from 1) of length `h`.
     fn end_step(&mut self, _step: u64, _h: f64) {}
-}
-
-/// Prescribed motion of held bodies and controls.
-pub trait Drive: std::fmt::Debug + Send + Sync {
-    /// Sets the positions and velocities of driven bodies and the controls at `time`.
-    ///
-    /// Called after every drift, which preserves the order of the integrator. Sliding bodies keep
-    /// their displacement along their directions.
-    fn place(&self, state: &mut State, time: f64);
-
-    /// Energy that driven controls add to `interactions` over a time `t`, at the positions and the
-    /// time of `state`, which is unchanged on return. The default is zero.
-    fn work_of_controls(
-        &self,
-        _state: &mut State,
-        _interactions: &[Box<dyn Interaction>],
-        _t: f64,
-    ) -> f64 {
-        0.0
-    }
 }
 
 /// A state, the interactions that act on it, and their loads.

@@ -14,6 +14,7 @@
 struct Readme;
 
 pub mod cells;
+mod centre_line;
 mod charts;
 pub mod committed;
 pub mod figures;

@@ -66,7 +66,7 @@ pub(crate) struct SolvedScene {
 
 impl SolvedScene {
     pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
-        Self::run(Assembly::build(scene).map_err(|e| e.to_string())?)
+        Self::run(actin_sim::build(scene).map_err(|e| e.to_string())?)
     }
 
     /// Runs an assembly from its current state.

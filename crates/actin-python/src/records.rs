@@ -2,7 +2,7 @@
 
 use crate::arrays::{Block, column, indices};
 use actin_rundir::StateArray;
-use actin_sim::{Assembly, BodyKind, Records, Row};
+use actin_sim::{Assembly, BodyKind, Records, Row, observed_columns};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -52,7 +52,7 @@ pub(crate) fn arrays(
     let observed = rows.iter().flat_map(|row| row.observed.iter());
     let observed = Block::new(
         observed.copied().collect(),
-        &[rows.len(), assembly.observed().len()],
+        &[rows.len(), observed_columns(assembly).len()],
     );
     all.set_item("observed", observed.into_python(py)?)?;
     Ok(all.unbind())
@@ -91,7 +91,7 @@ pub(crate) fn bodies(py: Python<'_>, assembly: &Assembly) -> PyResult<Py<PyDict>
     all.set_item("semi_axes_nm", axes.into_python(py)?)?;
     let terms = assembly.terms.iter().map(|term| term.name);
     all.set_item("terms", terms.collect::<Vec<_>>())?;
-    all.set_item("columns", assembly.observed().to_vec())?;
+    all.set_item("columns", observed_columns(assembly))?;
     Ok(all.unbind())
 }
 

@@ -84,7 +84,7 @@ impl Scene {
 
     /// Builds bodies and interactions.
     pub(crate) fn build(&self, py: Python<'_>) -> PyResult<Arc<Assembly>> {
-        let built = py.detach(|| Assembly::build(&self.inner));
+        let built = py.detach(|| actin_sim::build(&self.inner));
         built.map(Arc::new).map_err(|p| self.refuse(py, &p))
     }
 }

@@ -23,7 +23,7 @@ impl FinishedRun {
     pub fn open(path: impl AsRef<Path>) -> Result<Self, RunDirectoryError> {
         let path = path.as_ref().to_owned();
         let scene = read_scene(&path)?;
-        let assembly = Assembly::build(&scene)
+        let assembly = actin_sim::build(&scene)
             .map_err(|problem| RunDirectoryError::Problem(path.join(SCENE), problem))?;
         let stored = RunDirectory::existing(&path).stored_states(&assembly)?;
         match stored {

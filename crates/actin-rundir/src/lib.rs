@@ -30,6 +30,7 @@ struct Readme;
 
 mod atomic;
 mod checkpoint;
+mod damage;
 mod difference;
 mod directory;
 mod energies;
@@ -39,6 +40,7 @@ mod export;
 mod finished;
 #[cfg(test)]
 mod fixture;
+mod json;
 mod lock;
 mod manifest;
 mod names;
@@ -53,7 +55,8 @@ mod write;
 pub use actin_export::Format;
 pub use actin_sim as sim;
 pub use atomic::replace_file;
-pub use checkpoint::{CheckpointError, Checkpoints, Damage, Existing, OpenedRun};
+pub use checkpoint::{Checkpoints, Existing, OpenedRun};
+pub use damage::{CheckpointError, Damage};
 pub use difference::{Difference, first_difference};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;

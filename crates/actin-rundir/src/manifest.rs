@@ -5,8 +5,8 @@
 
 use crate::RunDirectoryError;
 use crate::atomic::{self, UNFINISHED};
+use crate::json::write_json;
 use crate::names::{FILES, MANIFEST, PICTURES, SCENE, SUMMARY, picture_index};
-use crate::write::write_json;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, FileType};

@@ -3,7 +3,7 @@
 use crate::clock;
 use crate::names::OBSERVABLES;
 use crate::table::{self, Cell};
-use actin_sim::{Assembly, Records};
+use actin_sim::{Assembly, Records, observed_columns};
 use std::io::{self, Write};
 
 /// Writes the table of `records`. Cells without a value yet (NaN) are empty.
@@ -13,7 +13,7 @@ pub(crate) fn write(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let mut columns = vec![clock(assembly).to_owned()];
-    columns.extend_from_slice(assembly.observed());
+    columns.extend(observed_columns(assembly));
     let rows = records.iter().map(|record| {
         let row = record?.row.into_owned();
         let observed = row.observed.into_iter().map(|value| match value {

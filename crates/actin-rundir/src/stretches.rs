@@ -13,10 +13,10 @@
 use crate::RunDirectoryError;
 use crate::atomic::unfinished;
 use crate::directory::RunDirectory;
+use crate::json::{read_json, write_json};
 use crate::lock::LOCK;
 use crate::manifest::remove_if_there;
 use crate::names::{ENERGIES, MANIFEST, OBSERVABLES, PICTURES, STRETCHES, SUMMARY, SWITCHES};
-use crate::write::{read_json, write_json};
 use actin_sim::Summary;
 use actin_sim::follow::StretchStart;
 use std::fs;

@@ -1,6 +1,7 @@
 //! Writing of results: validation, staging and publication.
 
 use crate::directory::RunDirectory;
+use crate::json::{read_json, write_json};
 use crate::manifest::Manifest;
 use crate::names::{
     COLLECTION, ENERGIES, EVENTS, MACRO, OBSERVABLES, OTHER_STATES, PICTURES, PROFILE, SCENE,
@@ -12,8 +13,7 @@ use actin_export::{PARAVIEW_SCRIPT, VtkPictures, write_collection};
 use actin_sim::{
     Assembly, At, Outcome, Plan, Record, Records, RecordsError, Scene, Status, Summary, Trajectory,
 };
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -119,16 +119,6 @@ impl RunDirectory {
     }
 }
 
-pub(crate) fn write_json(value: &impl Serialize, out: &mut impl Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, value)?;
-    writeln!(out)
-}
-
-pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, RunDirectoryError> {
-    let text = fs::read_to_string(path).map_err(RunDirectoryError::io(path))?;
-    serde_json::from_str(&text).map_err(|error| RunDirectoryError::damaged(path, &error))
-}
-
 struct Results<'a> {
     assembly: &'a Assembly,
     records: &'a dyn Records,
@@ -183,7 +173,7 @@ impl<'a> Results<'a> {
         let files = [
             (SCENE, true),
             (ENERGIES, true),
-            (OBSERVABLES, !self.assembly.observed().is_empty()),
+            (OBSERVABLES, !self.assembly.scene.observe.is_empty()),
             (STATES, output.states),
             (OTHER_STATES, self.others.is_some()),
             (PROFILE, true),

@@ -181,7 +181,25 @@ impl Default for Monomers {
     }
 }
 
+/// Bonds per interface of a quadrature that meets all moments.
+const QUADRATURE_BONDS: usize = 12;
+
 impl Monomers {
+    /// Returns these monomers with quadrature bonds in place of sampled bonds.
+    #[must_use]
+    pub fn with_quadrature_bonds(&self) -> Self {
+        if self.anchors == Anchors::Cubature {
+            return self.clone();
+        }
+        Self {
+            seed: 0,
+            anchors: Anchors::Cubature,
+            lateral_bonds: QUADRATURE_BONDS,
+            longitudinal_bonds: QUADRATURE_BONDS,
+            ..self.clone()
+        }
+    }
+
     /// Creates default monomers with this number of sampled bonds per interface.
     pub fn with_sampled_bonds(bonds: usize, seed: u64) -> Self {
         Self {

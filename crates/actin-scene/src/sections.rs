@@ -10,7 +10,7 @@ use std::ops::{Deref, DerefMut};
 
 /// Sections of a filament in order of arc length.
 ///
-/// With [`adaptive`](Self::adaptive) the list is one rod until `Assembly::build` of `actin-sim` chooses
+/// With [`adaptive`](Self::adaptive) the list is one rod until `build` of `actin-sim` chooses
 /// sections. With [`following`](Self::following) it is one rod until a motion starts.
 #[derive(Clone, Debug, Default)]
 pub struct Sections {

@@ -1,7 +1,7 @@
 //! Cost of a run: counts known before the start, and time measured on the first steps.
 
 use crate::scene::Task;
-use crate::{Assembly, Plan, Record, RunError, Sink, Status, memory};
+use crate::{Assembly, Plan, Record, RunError, Sink, Status};
 use std::fmt;
 use std::time::Instant;
 
@@ -122,7 +122,11 @@ impl fmt::Display for Cost {
         if let Some(contacts) = self.contacts {
             write!(f, "; {contacts} contacts of the repulsion, as built")?;
         }
-        write!(f, "; about {} of memory", memory::in_words(self.bytes))
+        write!(
+            f,
+            "; about {} of memory",
+            actin_assembly::memory::in_words(self.bytes)
+        )
     }
 }
 

@@ -1,7 +1,7 @@
 //! Assembly and simulation of scenes of actin filaments at two resolutions.
 //!
 //! A [`Scene`] describes filaments, clamps, loads, linkers and the task. [`Assembly::build`]
-//! creates its bodies and interactions. A [`Plan`] selects the time step and runs it into a
+//! creates its bodies and interactions; [`build`] also chooses automatic sections. A [`Plan`] selects the time step and runs it into a
 //! [`Sink`]: memory, or the run directory of `actin-rundir`. The [`Outcome`] holds the status and cost. An
 //! [`Ensemble`] runs replicas of a scene in parallel. This is the only crate that depends on all
 //! models; the models do not depend on each other.
@@ -14,10 +14,11 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-mod assembly;
+mod build;
 mod cost;
 mod ensemble;
 mod error;
+mod execute;
 pub mod follow;
 mod memory;
 mod notes;
@@ -29,6 +30,12 @@ mod summary;
 pub mod trade;
 
 // Crates whose types are in the API of this one.
+pub use actin_assembly::{
+    Assembly, At, BodyKind, Clamped, Counts, Drive, EnergyExchange, FilamentSpan, Fluctuations,
+    FrameInfo, JunctionBond, LawExtrapolation, LinkerEvent, LinkerEventKind, MeasuredError,
+    ModelLimitExceeded, Note, Part, PointInfo, Reaction, Resolution, SectionChoice, SectionSpan,
+    Term, UnstableTwist,
+};
 pub use actin_cosserat as cosserat;
 pub use actin_cosserat::constants as rod_constants;
 pub use actin_coupling as coupling;
@@ -54,22 +61,19 @@ pub use actin_scene::{
     Thermal, TimeCourse, TwistLaw, TwistRise, TwistStretchLaw, WallName, Water,
 };
 pub use actin_scene::{ParseReport, read_all, read_ron, to_ron};
-pub use assembly::{
-    Assembly, BodyKind, Clamped, Counts, Drive, EnergyExchange, FilamentSpan, Fluctuations,
-    FrameInfo, JunctionBond, LawExtrapolation, LinkerEvent, LinkerEventKind, MeasuredError,
-    ModelLimitExceeded, Part, PointInfo, Reaction, Resolution, SectionSpan, Term, UnstableTwist,
-};
+
+pub use build::build;
 pub use cost::{Cost, Timing};
 pub use ensemble::{Ensemble, EnsembleError, Replica};
 pub use error::SimError;
-pub use notes::Note;
-pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
+pub use observe::{DerivedLength, MeanSummary, ObservableSummary, observed_columns};
 pub use run::{
-    At, EnergyTotals, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep,
-    MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter, RecordSummary,
-    Records, RecordsError, RelaxationTimes, ResolutionSwitch, Row, RunError, RunPosition,
-    RunStatistics, SaddlePush, SavedRun, Sink, Slip, SolveReport, StableState, StableStates,
-    Status, StepError, StoredRecord, Trajectory, composition, near_equilibrium, solver,
+    EnergyTotals, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep,
+    ModelError, MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter,
+    RecordSummary, Records, RecordsError, RelaxationTimes, ResolutionSwitch, Row, RunError,
+    RunPosition, RunStatistics, SaddlePush, SavedRun, Scatter, Sink, Slip, SolveReport,
+    StableState, StableStates, Status, StepError, StoredRecord, Trajectory, composition,
+    near_equilibrium, solver,
 };
 pub use summary::{
     AccuracySummary, EndReaction, EndReactions, EnergySummary, FilamentSummary, FollowingSummary,

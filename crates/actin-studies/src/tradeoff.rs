@@ -1,7 +1,7 @@
 //! `cargo xtask tradeoff`: errors and run times of `actin trade` for the scenes of `scenarios/trade`.
 
+use actin_sim::Scene;
 use actin_sim::trade::{Candidate, Measure, Options as TradeOptions, Trade, TradeCallbacks, trade};
-use actin_sim::{Assembly, Scene};
 use anyhow::{Context, Error, Result};
 use std::fmt::Write as _;
 use std::fs;
@@ -88,7 +88,7 @@ fn scenes(names: &[String]) -> Result<Vec<(String, PathBuf)>> {
 
 /// Runs the trade of a scene. It compares tips (or heights and reactions without a free end), linker forces and energy.
 fn traded(scene: &Scene) -> Result<Trade> {
-    let assembly = Assembly::build(scene).map_err(|problem| Error::msg(problem.to_string()))?;
+    let assembly = actin_sim::build(scene).map_err(|problem| Error::msg(problem.to_string()))?;
     let has_tip = assembly.clamps.len() < 2 * assembly.filaments.len();
     let mut measures = if has_tip {
         vec![Measure::Tip]

@@ -1,37 +1,14 @@
 //! Parallel execution of the runs of a sweep.
 
-use crate::run::{State, make, summary};
+use crate::run::{State, make};
+use crate::settings::Settings;
+use crate::summary::summary;
 use crate::table::{Row, Table};
 use crate::{SweepDirectory, SweepError, ValidatedSweep};
-use actin_rundir::{CheckpointError, RunDirectory};
+use actin_rundir::RunDirectory;
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
-
-/// Settings of the execution.
-#[derive(Clone, Debug)]
-pub struct Settings {
-    /// Number of simultaneous runs, each on one thread; by default the number of cores.
-    pub jobs: Option<NonZeroUsize>,
-    /// Wall-clock time between checkpoints of a run.
-    pub checkpoint_every: Duration,
-    /// Interrupts all runs with checkpoints when set.
-    pub interrupted: Arc<AtomicBool>,
-    /// Called for checkpoints that cannot be written or read; the runs continue.
-    pub warn: fn(&CheckpointError),
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            jobs: None,
-            checkpoint_every: Duration::from_mins(1),
-            interrupted: Arc::default(),
-            warn: |_| (),
-        }
-    }
-}
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 /// Progress of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -22,16 +22,19 @@ mod open;
 mod random;
 mod rules;
 mod run;
+mod settings;
 mod snakemake;
+mod summary;
 mod sweep;
 mod table;
 
 pub use actin_sim as sim;
 pub use design::{Design, Run};
 pub use directory::SweepDirectory;
-pub use engine::{Progress, Settings, SweepOutcome};
+pub use engine::{Progress, SweepOutcome};
 pub use error::SweepError;
 pub use open::{SweepCost, ValidatedSweep};
+pub use settings::Settings;
 pub use sweep::{Axis, Plan, Ron, Samples, Scale, Span, Sweep, Value};
 
 /// Returns the JSON schema of sweep files.

@@ -4,8 +4,8 @@ use crate::design::Run;
 use crate::sweep::Axis;
 use crate::{Design, Sweep, SweepError, chosen, rules};
 use actin_sim::{
-    Assembly, Override, ParseReport, Plan, Scene, SceneError, SceneProblem, SceneText, Summary,
-    Timing, read_all,
+    Override, ParseReport, Plan, Scene, SceneError, SceneProblem, SceneText, Summary, Timing,
+    read_all,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -199,7 +199,7 @@ impl ValidatedSweep {
 
     /// Returns results that do not occur in the summary of the first valid point.
     fn problems_of_results(&self) -> Vec<SceneProblem> {
-        let assembly = self.example().map(|scene| Assembly::build(&scene));
+        let assembly = self.example().map(|scene| actin_sim::build(&scene));
         let Some(Ok(assembly)) = assembly else {
             return Vec::new();
         };
@@ -250,7 +250,7 @@ impl ValidatedSweep {
         let run = self.design.run(point * self.design.runs_of_point());
         let (scene, text) = self.scene_of(run).map_err(|error| error.to_string())?;
         let in_words = |problem: SceneProblem| text.locate(&problem).to_string();
-        let assembly = Assembly::build(&scene).map_err(in_words)?;
+        let assembly = actin_sim::build(&scene).map_err(in_words)?;
         Ok(of(&Plan::new(&assembly).map_err(in_words)?))
     }
 }

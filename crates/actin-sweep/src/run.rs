@@ -1,12 +1,12 @@
 //! Execution of one run of a sweep.
 
 use crate::design::Run;
+use crate::summary::summary;
 use crate::{Settings, SweepDirectory, SweepError, ValidatedSweep};
 use actin_rundir::{
     CheckpointError, Checkpoints, Existing, OpenedRun, RunDirectory, RunDirectoryError,
 };
-use actin_sim::{Assembly, Outcome, Plan, RecordsError, RunError, SceneText, Status};
-use serde_json::Value;
+use actin_sim::{Outcome, Plan, RecordsError, RunError, SceneText, Status};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -16,12 +16,6 @@ pub(crate) enum State {
     Finished,
     /// Interrupted, with a checkpoint if it had started.
     Interrupted,
-}
-
-pub(crate) fn summary(directory: &Path) -> Option<Value> {
-    let text = std::fs::read_to_string(directory.join("summary.json")).ok()?;
-    let summary: Value = serde_json::from_str(&text).ok()?;
-    (summary["status"] != "interrupted").then_some(summary)
 }
 
 /// Makes a run, unless it has ended.
@@ -44,7 +38,7 @@ pub(crate) fn make(
         Err(error) => return fail(&path, title, &error.to_string()),
     };
     let refused = |problem: &_| fail(&path, &scene.title, &text.locate(problem).to_string());
-    let assembly = match Assembly::build(&scene) {
+    let assembly = match actin_sim::build(&scene) {
         Ok(assembly) => assembly,
         Err(problem) => return refused(&problem),
     };

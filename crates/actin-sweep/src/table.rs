@@ -1,7 +1,7 @@
 //! Tables of a sweep: all runs, and all points with means and standard errors.
 
 use crate::files::{self, RUNS, TABLE};
-use crate::run::summary;
+use crate::summary::summary;
 use crate::{SweepDirectory, SweepError, ValidatedSweep, chosen};
 use serde_json::Value;
 

@@ -1,6 +1,7 @@
 use super::capsule::{Capsule, Follows, MARGIN, RepulsionError, Row, positive, push_blocks};
+use super::images::NeighbourPair;
 use super::kernel::{Kernel, Tangent};
-use super::neighbours::{NeighbourPair, Neighbours, Reach};
+use super::neighbours::{Neighbours, Reach};
 use super::pair::Pair;
 use super::passing::{self, Limit};
 use crate::PeriodicCell;

@@ -1,5 +1,4 @@
 use super::Capsule;
-use super::neighbours::NeighbourPair;
 use crate::periodic::Lattice;
 use actin_mechanics::Vector3;
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -10,6 +9,30 @@ use std::ops::RangeInclusive;
 const FARTHEST: f64 = 1e12;
 /// Largest number of images of the box in which an axis is searched; a longer motion has diverged.
 const MOST_IMAGES: f64 = 1e4;
+
+/// Pair of a capsule and a periodic image of a capsule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct NeighbourPair {
+    /// Ascending indices; equal for a capsule and its own image.
+    pub(super) capsules: [usize; 2],
+    /// Index of the image of the second capsule.
+    pub(super) image: [i32; 3],
+}
+
+impl NeighbourPair {
+    /// Displacement of the image (nm, lab frame).
+    pub(super) fn shift(&self, lattice: Option<Lattice>) -> Vector3 {
+        let image = Vector3::from(self.image.map(f64::from));
+        lattice.map_or_else(Vector3::zeros, |lattice| lattice.shift(image))
+    }
+
+    /// Ends of both axes (nm, lab frame).
+    pub(super) fn ends(&self, all: &[[Vector3; 2]], lattice: Option<Lattice>) -> [[Vector3; 2]; 2] {
+        let [i, j] = self.capsules;
+        let shift = self.shift(lattice);
+        [all[i], all[j].map(|end| end + shift)]
+    }
+}
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {

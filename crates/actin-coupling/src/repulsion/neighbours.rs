@@ -1,5 +1,5 @@
 use super::Capsule;
-use super::images::{Bounds, meeting};
+use super::images::{Bounds, NeighbourPair, meeting};
 use crate::PeriodicCell;
 use crate::periodic::Lattice;
 use actin_mechanics::{State, Vector3, segments};
@@ -24,30 +24,6 @@ pub(super) struct Reach {
     pub(super) apart: f64,
     /// Periodic box; `None` in open space.
     pub(super) cell: Option<PeriodicCell>,
-}
-
-/// Pair of a capsule and a periodic image of a capsule.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct NeighbourPair {
-    /// Ascending indices; equal for a capsule and its own image.
-    pub(super) capsules: [usize; 2],
-    /// Index of the image of the second capsule.
-    pub(super) image: [i32; 3],
-}
-
-impl NeighbourPair {
-    /// Displacement of the image (nm, lab frame).
-    pub(super) fn shift(&self, lattice: Option<Lattice>) -> Vector3 {
-        let image = Vector3::from(self.image.map(f64::from));
-        lattice.map_or_else(Vector3::zeros, |lattice| lattice.shift(image))
-    }
-
-    /// Ends of both axes (nm, lab frame).
-    pub(super) fn ends(&self, all: &[[Vector3; 2]], lattice: Option<Lattice>) -> [[Vector3; 2]; 2] {
-        let [i, j] = self.capsules;
-        let shift = self.shift(lattice);
-        [all[i], all[j].map(|end| end + shift)]
-    }
 }
 
 /// Neighbour list and current axes.

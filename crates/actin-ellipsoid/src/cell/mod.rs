@@ -121,7 +121,7 @@ impl Cell {
                 let interface = model.interface(kind, index)?;
                 let upper = (lower + kind.steps()) % monomers;
                 let axes = [places[lower].1, places[upper].1];
-                let rigidity = kind.parameters(model.parameters()).rigidity;
+                let rigidity = model.parameters().interface(kind).rigidity;
                 let pair = pairs::CellPair::new([lower, upper], &interface, axes, rigidity);
                 pairs.push(pair);
             }

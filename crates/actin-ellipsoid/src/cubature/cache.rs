@@ -17,7 +17,7 @@ pub(super) fn get(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Cuba
     let numbers = numbers(parameters, kind);
     let key = (
         kind,
-        kind.parameters(parameters).bonds,
+        parameters.interface(kind).bonds,
         numbers.map(f64::to_bits),
     );
     let place = {

@@ -43,7 +43,7 @@ pub(super) fn built_in(parameters: &EllipsoidParameters, kind: InterfaceKind) ->
         .into_iter()
         .zip(numbers(&standard, kind));
     let mut is_same = pairs.map(|(a, b)| (a - b).abs() <= SAME * b.abs());
-    let count = kind.parameters(parameters).bonds;
+    let count = parameters.interface(kind).bonds;
     (known.points.len() == count && is_same.all(|same| same)).then(|| Cubature {
         points: known.points().collect(),
         certificate: known.certificate,

@@ -44,7 +44,7 @@ fn twelve_points_meet_the_moments() {
             assert!(certificate.residual <= MET, "{i} {kind}: {certificate:?}");
             let sum: f64 = found.points.iter().map(|p| p.weight).sum();
             assert!((sum - 1.0).abs() < MET);
-            let floor = kind.parameters(parameters).minimum_length;
+            let floor = parameters.interface(kind).minimum_length;
             assert!(certificate.lengths[0] >= floor - 1e-12);
         }
     }

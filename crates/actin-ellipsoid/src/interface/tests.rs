@@ -3,6 +3,7 @@
 use super::*;
 use crate::{EllipsoidModel, Helix};
 use InterfaceKind::{Lateral, Longitudinal};
+use actin_mechanics::Vector3;
 
 fn with_bonds(bonds: usize) -> EllipsoidParameters {
     EllipsoidParameters::with_sampled_bonds(bonds, 0)

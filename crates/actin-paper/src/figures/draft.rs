@@ -1,9 +1,9 @@
 //! Rows, pictures and tables of a running experiment.
 
-use super::expected::{self, Bound};
+use super::expected::{self, Bound, MeasuredRow};
 use super::progress::Progress;
 use crate::statistics::{Sample, largest};
-use actin_draw::report::{Artefact, Origin, Picture, Row, View, write_csv};
+use actin_draw::report::{Artefact, Picture, Row, View, write_csv};
 use actin_draw::{Chart, Series};
 use actin_view::{Attitude, Pose, ViewState, states};
 use rayon::prelude::*;
@@ -22,13 +22,6 @@ pub(super) struct Draft<'a> {
     pub rows: Vec<MeasuredRow>,
     pub pictures: Vec<Picture>,
     pub views: Vec<View>,
-}
-
-/// Row with the standard deviation of a single sample, which widens the bounds of printed numbers.
-#[derive(Clone, Debug)]
-pub(super) struct MeasuredRow {
-    pub row: Row,
-    pub sd: f64,
 }
 
 pub(super) type Column<R> = (&'static str, fn(&R) -> String);
@@ -219,14 +212,6 @@ impl<'a> Draft<'a> {
             views: self.views,
             wall_s,
         }
-    }
-}
-
-impl MeasuredRow {
-    /// Shows a number of the paper next to the row, without a verdict.
-    pub(super) fn beside(row: Row, expected: f64) -> Self {
-        let row = row.with_reference(expected, Origin::Paper);
-        Self { row, sd: 0.0 }
     }
 }
 

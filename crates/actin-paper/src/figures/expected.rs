@@ -3,11 +3,17 @@
 //! `data/expected.csv` contains expected numbers, `data/claims.csv` verbal statements of the paper with their bounds.
 //! `data/page.ron` states the rule for all bounds. It depends on the expectation, not on the result.
 
-use super::draft::MeasuredRow;
 use crate::published::table;
 use actin_draw::report::{DEVIATIONS, Origin, Row, printed};
 use serde::Deserialize;
 use std::sync::LazyLock;
+
+/// Row with the standard deviation of a single sample, which widens the bounds of printed numbers.
+#[derive(Clone, Debug)]
+pub(super) struct MeasuredRow {
+    pub row: Row,
+    pub sd: f64,
+}
 
 /// Relative size that the paper reports as a difference (Figure 7).
 pub(super) const DIFFERENCE: f64 = 0.1;
@@ -89,6 +95,12 @@ pub(super) fn judged(artefact: &'static str, measured: Vec<MeasuredRow>) -> Vec<
 }
 
 impl MeasuredRow {
+    /// Shows a number of the paper next to the row, without a verdict.
+    pub(super) fn beside(row: Row, expected: f64) -> Self {
+        let row = row.with_reference(expected, Origin::Paper);
+        Self { row, sd: 0.0 }
+    }
+
     fn judged(self) -> Row {
         let Self { row, sd } = self;
         let of_row = |e: &&Expected| e.artefact == row.artefact && e.quantity == row.quantity;

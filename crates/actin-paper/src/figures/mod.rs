@@ -7,7 +7,6 @@
 mod buckling;
 mod cache;
 mod cantilever;
-mod centre_line;
 mod charts;
 mod draft;
 mod expected;
@@ -25,7 +24,6 @@ mod tables;
 mod twist_fits;
 
 pub use crate::palette::Palette;
-pub(crate) use centre_line::CentreLine;
 pub(crate) use page::unexplained;
 
 use crate::ProgressSink;

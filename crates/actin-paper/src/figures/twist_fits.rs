@@ -1,6 +1,7 @@
 //! Figure 9: fits of twisting rigidity and length as functions of twist.
 
-use super::draft::{Draft, MeasuredRow};
+use super::draft::Draft;
+use super::expected::MeasuredRow;
 use super::tables;
 use crate::fit::{TwistData, TwistFits, UnfittedData, draw, rms};
 use actin_cosserat::{PolynomialStretch, TanhTwist};

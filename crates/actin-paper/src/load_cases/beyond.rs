@@ -20,7 +20,7 @@ const FORCES_PN: [f64; 7] = [1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0];
 const AZIMUTHS: u32 = 6;
 const GROUPS: usize = 5;
 /// Folder of the committed table, which the program includes.
-const COMMITTED: &str = "crates/actin-sim/src/assembly";
+const COMMITTED: &str = "crates/actin-assembly/src";
 const FILE: &str = "extrapolation.csv";
 
 /// A quantity that exceeds its range.

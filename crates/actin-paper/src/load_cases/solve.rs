@@ -2,7 +2,7 @@
 
 use super::case::{Case, Loading, TURNED_NM};
 use super::filament::FilamentModel;
-use crate::figures::CentreLine;
+use crate::centre_line::CentreLine;
 use crate::measure::{Evidence, Specimen, far_end_shift, follow, reaction, twist};
 use crate::run::{SolvedScene, clamp, free, scenario};
 use actin_mechanics::{State, Vector3};

@@ -1,16 +1,16 @@
 //! Checkpoints of a run in its directory.
 
-use super::extension::Ending;
+use super::Ending;
 use super::file::{Contents, Identity};
 use super::log::{RecordLog, Tally};
 use super::stored::Stored;
-use super::{CheckpointError, Damage};
 use crate::RunDirectoryError;
 use crate::atomic::replace_durably;
 use crate::directory::RunDirectory;
 use crate::lock::RunLock;
 use crate::manifest::remove_if_there;
 use crate::names::{CHECKPOINT, RECORDS};
+use crate::{CheckpointError, Damage};
 use actin_sim::{
     Plan, Record, RecordIter, RecordSummary, Records, RunPosition, SavedRun, Sink, Status,
 };

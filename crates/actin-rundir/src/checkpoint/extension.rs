@@ -6,7 +6,8 @@
 use super::file::{Contents, Identity, same_scene};
 use super::log::{RecordLog, Tally};
 use super::stored::Form;
-use super::{Checkpoints, Damage};
+use super::{Checkpoints, Ending};
+use crate::Damage;
 use crate::atomic::replace_durably;
 use crate::difference::{Difference, first_difference};
 use crate::manifest::{Manifest, remove_if_there};
@@ -17,14 +18,6 @@ use std::borrow::Cow;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
-
-/// End of the run in a directory.
-pub(super) enum Ending {
-    /// The run of the same scene has ended.
-    Same(Status),
-    /// A motion of this scene with a shorter duration is completed.
-    Shorter(String),
-}
 
 impl RunDirectory {
     /// Returns the end of a finished run; `None` without results.

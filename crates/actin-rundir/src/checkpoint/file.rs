@@ -1,11 +1,13 @@
 //! Format of `checkpoint.bin`.
 
-use super::Damage;
 use super::log::{Tally, compare, open};
 use super::stored::{Form, Stored};
 use super::wire::{decode, decode_all, encode};
+use crate::Damage;
 use crate::difference::{Difference, first_difference};
-use actin_sim::{Plan, RecordSummary, RunPosition, RunStatistics, SavedRun, StoredRecord, Task};
+use actin_sim::{
+    Plan, RecordSummary, RunPosition, RunStatistics, SavedRun, StoredRecord, Task, observed_columns,
+};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io::Read;
@@ -53,7 +55,7 @@ impl Identity {
             form: Form {
                 like: assembly.system.state().clone(),
                 terms: assembly.terms.len(),
-                columns: assembly.observed().len(),
+                columns: observed_columns(assembly).len(),
                 has_states: assembly.scene.output.needs_states(),
             },
             is_motion: !matches!(assembly.scene.task, Task::Equilibrium(_)),

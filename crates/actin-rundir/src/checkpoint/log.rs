@@ -1,8 +1,8 @@
 //! Format of `records.bin`: consecutive records, each with the checksum of all records up to it.
 
-use super::Damage;
 use super::stored::{Form, Stored};
 use super::wire::encode;
+use crate::Damage;
 use actin_sim::mechanics::State;
 use actin_sim::{Record, RecordIter, Records, StoredRecord};
 use serde::{Deserialize, Serialize};

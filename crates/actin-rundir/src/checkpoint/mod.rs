@@ -31,7 +31,6 @@
 //! Records after those counted by the checkpoint are removed when the run is resumed.
 
 mod checkpoints;
-mod error;
 mod extension;
 mod file;
 mod log;
@@ -39,4 +38,13 @@ mod stored;
 mod wire;
 
 pub use checkpoints::{Checkpoints, Existing, OpenedRun};
-pub use error::{CheckpointError, Damage};
+
+use actin_sim::Status;
+
+/// End of the run in a directory.
+enum Ending {
+    /// The run of the same scene has ended.
+    Same(Status),
+    /// A motion of this scene with a shorter duration is completed.
+    Shorter(String),
+}

@@ -1,7 +1,7 @@
 //! Encoding of records with or without states.
 
-use super::Damage;
 use super::wire::{decode_all, encode};
+use crate::Damage;
 use actin_sim::mechanics::{Motion, State};
 use actin_sim::{At, EnergyExchange, Row, StoredRecord};
 use serde::{Deserialize, Serialize};

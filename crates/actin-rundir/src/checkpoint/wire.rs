@@ -1,6 +1,6 @@
 //! Encoding of values in the `postcard` format, which preserves all bits of numbers.
 
-use super::Damage;
+use crate::Damage;
 use serde::{Deserialize, Serialize};
 
 pub(super) fn encode<T: Serialize>(value: &T, bytes: Vec<u8>) -> Vec<u8> {

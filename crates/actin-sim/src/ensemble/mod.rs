@@ -11,7 +11,7 @@ mod tests;
 pub use error::EnsembleError;
 
 use crate::scene::RandomPart;
-use crate::{Assembly, Outcome, Plan, Scene, Status, Trajectory};
+use crate::{Outcome, Plan, Scene, Status, Trajectory};
 use pool::ReplicaPool;
 use std::fmt;
 use std::num::NonZeroUsize;
@@ -136,7 +136,7 @@ impl<'a> Ensemble<'a> {
     ) -> Result<Vec<T>, EnsembleError> {
         let make = |index: usize, stop: &sink::ReplicaStop<'_>| {
             let seed = self.seeds[index];
-            let assembly = Assembly::build(&self.reseeded(seed).0)?;
+            let assembly = crate::build(&self.reseeded(seed).0)?;
             let plan = Plan::new(&assembly)?;
             let mut sink = Trajectory::default();
             let outcome = plan.run_into(&mut stop.over(&mut sink))?;

@@ -54,7 +54,7 @@ fn results_equal_single_runs_on_any_number_of_threads() {
             for what in RandomPart::ALL {
                 scene.reseed(what, seed);
             }
-            let assembly = Assembly::build(&scene).unwrap();
+            let assembly = crate::Assembly::build(&scene).unwrap();
             let (alone, _) = Plan::new(&assembly).unwrap().run().unwrap();
             assert_eq!(records, alone.records);
         }

@@ -1,6 +1,5 @@
 //! Motion as a chain of stretches with constant resolution.
 
-use super::cells::Cells;
 use super::criterion::{Criterion, FilamentState, ResolutionRequest, wish_of};
 use super::transfer::{Switch, Transfer};
 use crate::run::record;
@@ -9,6 +8,7 @@ use crate::{
     Assembly, MotionPosition, Outcome, Plan, Progress, Record, RecordSummary, ResolutionSwitch,
     RunError, RunPosition, SavedRun, Sink, Status, Trajectory,
 };
+use actin_assembly::Cells;
 use actin_integrate::{Checkpoint, Moment, Snapshot};
 use actin_mechanics::{Split, State};
 use serde::{Deserialize, Serialize};

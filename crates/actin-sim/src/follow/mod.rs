@@ -19,7 +19,6 @@
 //! midpoints or random stress depending on the fastest relaxation of each stretch; both give
 //! strains their thermal energy to 1 % where they apply.
 
-mod cells;
 mod chain;
 mod criterion;
 mod field;
@@ -27,7 +26,6 @@ mod momentum;
 mod settling;
 mod transfer;
 
-pub(crate) use cells::Cells;
 pub use chain::{
     AdaptiveMotion, CompletedStretch, Follower, NextStretch, Stretch, StretchEnd, StretchStart,
 };

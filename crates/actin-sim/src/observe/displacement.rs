@@ -1,8 +1,8 @@
 //! Squared displacement of a point.
 
-use super::{Checked, Observe, StoredPositions, View, chain};
+use super::{Checked, Observe, RecordTimes, StoredPositions, View, chain};
 use crate::scene::Point;
-use crate::{Assembly, End, Estimate};
+use crate::{Assembly, End};
 use actin_mechanics::Vector3;
 
 const SAME: f64 = 1e-6;
@@ -57,11 +57,11 @@ impl Observe for SquaredDisplacement {
     }
 
     /// A lag must be a multiple of the record interval.
-    fn check(&self, _assembly: &Assembly, estimate: Option<&Estimate>) -> Checked {
-        let (Some(lag), Some(estimate)) = (self.lag_ns, estimate) else {
+    fn check(&self, _assembly: &Assembly, times: Option<&RecordTimes>) -> Checked {
+        let (Some(lag), Some(times)) = (self.lag_ns, times) else {
             return Ok(());
         };
-        let every = estimate.record_every_ns;
+        let every = times.every_ns;
         let records = (lag / every).round();
         if records >= 1.0 && (lag - records * every).abs() <= SAME * lag {
             return Ok(());

@@ -3,15 +3,17 @@
 use super::{Observe, StoredPositions, View};
 use crate::{Assembly, Part};
 
-/// Names of sections and junctions, and for each term the index of its name, if any.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct EnergyNames {
+/// Potential and kinetic energy, and energies of sections and junctions.
+///
+/// Has the names of sections and junctions, and for each term the index of its name, if any.
+#[derive(Debug)]
+pub(super) struct Energies {
     names: Vec<String>,
     places: Vec<Option<usize>>,
 }
 
-impl EnergyNames {
-    pub(crate) fn new(assembly: &Assembly) -> Self {
+impl Energies {
+    pub(super) fn new(assembly: &Assembly) -> Self {
         let mut parts: Vec<Part> = Vec::new();
         let mut place = |part: Part| match part {
             Part::Load(_) | Part::Linker(_) | Part::Clamp(_) | Part::Contacts | Part::Wall(_) => {
@@ -32,20 +34,10 @@ impl EnergyNames {
     }
 }
 
-/// Potential and kinetic energy, and energies of sections and junctions.
-#[derive(Debug)]
-pub(super) struct Energies(EnergyNames);
-
-impl Energies {
-    pub(super) fn new(names: EnergyNames) -> Self {
-        Self(names)
-    }
-}
-
 impl Observe for Energies {
     fn columns(&self) -> Vec<String> {
         let all = ["potential", "kinetic"].into_iter();
-        all.chain(self.0.names.iter().map(String::as_str))
+        all.chain(self.names.iter().map(String::as_str))
             .map(|name| format!("energy_{name}_pn_nm"))
             .collect()
     }
@@ -53,8 +45,8 @@ impl Observe for Energies {
     fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         row.extend([view.energies_pn_nm.iter().sum(), view.kinetic_pn_nm]);
         let first = row.len();
-        row.resize(first + self.0.names.len(), 0.0);
-        for (energy, place) in view.energies_pn_nm.iter().zip(&self.0.places) {
+        row.resize(first + self.names.len(), 0.0);
+        for (energy, place) in view.energies_pn_nm.iter().zip(&self.places) {
             if let Some(place) = place {
                 row[first + place] += energy;
             }

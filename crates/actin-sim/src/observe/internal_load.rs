@@ -117,7 +117,7 @@ mod tests {
         let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
         let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
         let record = trajectory.records.last().unwrap();
-        let columns = assembly.observed_columns();
+        let columns = crate::observed_columns(&assembly);
         let get = |name: &str| {
             let found = columns.iter().position(|column| column == name);
             record.observed[found.unwrap_or_else(|| panic!("no column {name}: {columns:?}"))]

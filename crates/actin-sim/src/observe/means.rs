@@ -2,7 +2,7 @@
 
 use super::Observers;
 use crate::statistics::{BlockAverages, Estimate};
-use crate::{Assembly, Record};
+use crate::{Assembly, At};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -68,33 +68,38 @@ impl ObservableSummary {
 }
 
 /// Running averages of all columns.
-pub(crate) struct Averages<'a> {
-    observers: &'a Observers,
+pub(crate) struct Averages {
+    observers: Observers,
     /// Start of the averages (ns); `None` without thermal noise.
     from_ns: Option<f64>,
     columns: Vec<BlockAverages>,
     last: Vec<f64>,
 }
 
-impl<'a> Averages<'a> {
-    pub(crate) fn new(assembly: &'a Assembly) -> Self {
-        let observers = &assembly.observers;
+impl Averages {
+    pub(crate) fn new(assembly: &Assembly) -> Self {
+        let observers = Observers::new(assembly);
         Self {
-            observers,
             from_ns: assembly.scene.burn_in(),
             columns: vec![BlockAverages::default(); observers.columns().len()],
+            observers,
             last: Vec::new(),
         }
     }
 
     /// Summary of all columns from a single record.
     pub(crate) fn of_one(
-        assembly: &'a Assembly,
-        record: &Record,
+        assembly: &Assembly,
+        (at, observed): (At, &[f64]),
     ) -> BTreeMap<String, ObservableSummary> {
         let mut all = Self::new(assembly);
-        all.add(record.at.value(), &record.observed);
+        all.add(at.value(), observed);
         all.end()
+    }
+
+    /// Number of columns.
+    pub(crate) fn width(&self) -> usize {
+        self.columns.len()
     }
 
     pub(crate) fn add(&mut self, time_ns: f64, row: &[f64]) {

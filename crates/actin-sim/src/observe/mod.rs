@@ -27,8 +27,8 @@ pub use means::{DerivedLength, MeanSummary, ObservableSummary};
 pub(crate) use memory::Memory;
 pub(crate) use view::View;
 
-use crate::scene::{Observable, Scene, SceneProblem};
-use crate::{Assembly, Estimate};
+use crate::Assembly;
+use crate::scene::{Observable, SceneProblem};
 use memory::StoredPositions;
 use std::fmt::Debug;
 
@@ -46,9 +46,16 @@ trait Observe: Debug + Send + Sync {
     }
 
     /// Refuses options that conflict with the built filament or the time step.
-    fn check(&self, _assembly: &Assembly, _estimate: Option<&Estimate>) -> Checked {
+    fn check(&self, _assembly: &Assembly, _times: Option<&RecordTimes>) -> Checked {
         Ok(())
     }
+}
+
+/// Times of the records of a motion (ns).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RecordTimes {
+    pub(crate) every_ns: f64,
+    pub(crate) duration_ns: f64,
 }
 
 /// Key below the observable, its value and the violated rule.
@@ -61,11 +68,12 @@ pub(crate) struct Observers {
 }
 
 impl Observers {
-    pub(crate) fn new(scene: &Scene, energies: &EnergyNames) -> Self {
+    pub(crate) fn new(assembly: &Assembly) -> Self {
+        let scene = &assembly.scene;
         let list: Vec<_> = scene
             .observe
             .iter()
-            .map(|&one| build(one, scene, energies))
+            .map(|&one| build(one, assembly))
             .collect();
         let columns = list.iter().flat_map(|one| one.columns()).collect();
         Self { list, columns }
@@ -106,21 +114,20 @@ impl Observers {
     pub(crate) fn check(
         &self,
         assembly: &Assembly,
-        estimate: Option<&Estimate>,
+        times: Option<&RecordTimes>,
     ) -> Result<(), SceneProblem> {
         for (i, one) in self.list.iter().enumerate() {
             let refused = |(name, value, rule): (&str, f64, String)| {
                 SceneProblem::new(format!("observe[{i}].{name}"), format!("{value:?}"), rule)
             };
-            one.check(assembly, estimate).map_err(refused)?;
+            one.check(assembly, times).map_err(refused)?;
         }
         Ok(())
     }
 }
 
-pub(crate) use energies::EnergyNames;
-
-fn build(one: Observable, scene: &Scene, energies: &EnergyNames) -> Box<dyn Observe> {
+fn build(one: Observable, assembly: &Assembly) -> Box<dyn Observe> {
+    let scene = &assembly.scene;
     match one {
         Observable::Tip { filament, end } => Box::new(tip::Tip { filament, end }),
         Observable::EndReaction { filament, end } => Box::new(reaction::Reaction { filament, end }),
@@ -136,7 +143,7 @@ fn build(one: Observable, scene: &Scene, energies: &EnergyNames) -> Box<dyn Obse
         Observable::Buckling { filament, points } => {
             Box::new(buckling::Buckling { filament, points })
         }
-        Observable::Energies => Box::new(energies::Energies::new(energies.clone())),
+        Observable::Energies => Box::new(energies::Energies::new(assembly)),
         Observable::Network => Box::new(network::Network::new(scene)),
         Observable::SquaredDisplacement {
             filament,
@@ -171,11 +178,10 @@ fn end_name(end: crate::End) -> &'static str {
     }
 }
 
-impl Assembly {
-    /// Returns the names of the observed quantities, the columns of `observables.csv`.
-    pub fn observed_columns(&self) -> &[String] {
-        self.observers.columns()
-    }
+/// Returns the names of the observed quantities of an assembly in the order of their values in a record, the columns of
+/// `observables.csv`.
+pub fn observed_columns(assembly: &Assembly) -> Vec<String> {
+    Observers::new(assembly).columns
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Order, size, connections, linker forces and virial of all filaments.
 
-use super::{Checked, Observe, StoredPositions, View};
+use super::{Checked, Observe, RecordTimes, StoredPositions, View};
 use crate::scene::{Factor, PeriodicBox, Scene, Setting};
-use crate::{Assembly, Estimate, Part};
+use crate::{Assembly, Part};
 use actin_mechanics::{Loads, Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
@@ -104,9 +104,8 @@ impl Oscillation {
     }
 
     /// Requires records at equal distances over whole periods, whose means are free of other harmonics.
-    fn check(&self, estimate: &Estimate) -> Checked {
-        let every = estimate.record_every_ns;
-        let duration = estimate.time_step_ns * estimate.steps as f64;
+    fn check(&self, times: &RecordTimes) -> Checked {
+        let (every, duration) = (times.every_ns, times.duration_ns);
         let is_multiple =
             |of: f64, one: f64| (of / one - (of / one).round()).abs() <= SAME * of / one;
         let after = duration - self.from_ns;
@@ -147,9 +146,9 @@ impl Observe for Network {
         scalars.chain(virial).chain(stress).chain(moduli).collect()
     }
 
-    fn check(&self, _assembly: &Assembly, estimate: Option<&Estimate>) -> Checked {
-        match (&self.oscillation, estimate) {
-            (Some(oscillation), Some(estimate)) => oscillation.check(estimate),
+    fn check(&self, _assembly: &Assembly, times: Option<&RecordTimes>) -> Checked {
+        match (&self.oscillation, times) {
+            (Some(oscillation), Some(times)) => oscillation.check(times),
             _ => Ok(()),
         }
     }

@@ -1,8 +1,8 @@
 //! Tangent correlation and persistence length.
 
-use super::{Checked, DerivedLength, Observe, StoredPositions, View};
+use super::{Checked, DerivedLength, Observe, RecordTimes, StoredPositions, View};
+use crate::Assembly;
 use crate::shape::Ribbon;
-use crate::{Assembly, Estimate};
 use actin_mechanics::Vector3;
 
 /// Tolerance (nm) above the round-off of sums of lengths.
@@ -49,7 +49,7 @@ impl Observe for TangentCorrelation {
         })
     }
 
-    fn check(&self, assembly: &Assembly, _estimate: Option<&Estimate>) -> Checked {
+    fn check(&self, assembly: &Assembly, _estimate: Option<&RecordTimes>) -> Checked {
         let s_nm = Ribbon::from_state(assembly, self.filament, &assembly.rest).frame_s_nm;
         let most = s_nm[s_nm.len() - 1] - s_nm[0];
         if most > 0.0 && self.over_nm <= most + SAME_PLACE_NM {

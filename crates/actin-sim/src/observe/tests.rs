@@ -1,6 +1,6 @@
 //! Observed quantities against theory, summaries and profiles of the same state.
 
-use super::View;
+use super::{Observers, View, observed_columns};
 use crate::{Assembly, At, End, Plan, Record, Scene, Summary};
 use actin_mechanics::{State, Vector3, Xorshift, perturb, rotation};
 
@@ -16,13 +16,13 @@ pub(super) fn observe(assembly: &Assembly, state: &State) -> Vec<f64> {
         .map(|i| i.energy(state))
         .collect();
     let view = View::new(assembly, (At::Time(0.0), state), (&energies, 0.25));
-    let observers = &assembly.observers;
+    let observers = Observers::new(assembly);
     observers.row(&view, &mut observers.memory())
 }
 
 /// The value of a column.
 pub(super) fn value(assembly: &Assembly, row: &[f64], column: &str) -> f64 {
-    let columns = assembly.observers.columns();
+    let columns = observed_columns(assembly);
     let place = columns.iter().position(|name| name == column);
     row[place.unwrap_or_else(|| panic!("{column} is not in {columns:?}"))]
 }
@@ -92,7 +92,7 @@ fn observables_agree_with_the_summary() {
 fn columns_belong_together() {
     let assembly = build(ALL);
     let (record, summary) = recorded(&assembly);
-    let columns = assembly.observers.columns();
+    let columns = observed_columns(&assembly);
     assert_eq!(record.observed.len(), columns.len());
     let mut names = columns.to_vec();
     names.sort();
@@ -178,7 +178,8 @@ fn displacements_are_over_their_lag() {
          observe: [SquaredDisplacement(of: Tip, lag_ns: 0.5), SquaredDisplacement(of: Centre)],
          task: Dynamics(duration_ns: 3.0, record_every_ns: 0.25))",
     );
-    let mut memory = assembly.observers.memory();
+    let observers = Observers::new(&assembly);
+    let mut memory = observers.memory();
     let energies = vec![0.0; assembly.terms.len()];
     let mut at = |time: f64| {
         let mut state = assembly.rest.clone();
@@ -186,7 +187,7 @@ fn displacements_are_over_their_lag() {
             state.points.position.add(i, Vector3::x() * (2.0 * time));
         }
         let view = View::new(&assembly, (At::Time(time), &state), (&energies, 0.0));
-        assembly.observers.row(&view, &mut memory)
+        observers.row(&view, &mut memory)
     };
     let [first, second] = [at(0.0), at(0.25)];
     assert!(first[0].is_nan() && second[0].is_nan());

@@ -1,12 +1,13 @@
 //! Overdamped motion: friction, time step and run.
 
 use super::dynamics::{check_records, conclude};
+use super::estimate::LongestStep;
 use super::recorder::Recorder;
 use super::sink::{Clock, SavedRun, Sink};
 use super::step_check::StepCheck;
-use super::steps::{LongestStep, Steps};
+use super::steps::Steps;
 use super::unknowns::layout;
-use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
+use super::{Estimate, Failure, Outcome, Status, long_steps};
 use crate::scene::{Brownian as Task, Flow, Fluid, SceneProblem, Task as AnyTask};
 use crate::{Assembly, SectionSpan};
 use actin_brownian::{Brownian, Layout, Relaxation};
@@ -67,29 +68,25 @@ impl RelaxationTimes {
     }
 }
 
-impl Plan<'_> {
-    /// Returns the relaxation times in the fluid of the task, or `None` for tasks without a fluid.
-    /// The cost is comparable to some hundred steps.
-    ///
-    /// # Errors
-    /// If there are more than 5000 degrees of freedom, or drag or couplings without defined
-    /// relaxation times.
-    pub fn relaxation_times(&self) -> Option<Result<RelaxationTimes, SceneProblem>> {
-        let fluid = match &self.scene().task {
-            AnyTask::Brownian(task) => &task.drag,
-            AnyTask::Dynamics(dynamics) => dynamics.drag.fluid()?,
-            AnyTask::Equilibrium(_) => return None,
-        };
-        let dofs = self.assembly().counts().dofs;
-        if dofs > MOST_DOFS {
-            let rule = format!(
-                "relaxation times are limited to {MOST_DOFS} degrees of freedom; this scene has {dofs}"
-            );
-            return Some(Err(SceneProblem::new("filament", "", rule)));
-        }
-        let relaxation = relaxation(self.assembly(), fluid, |layout| layout);
-        Some(relaxation.map(|mut relaxation| RelaxationTimes::new(&mut relaxation)))
+/// Relaxation times in the fluid of the task; `None` for tasks without a fluid.
+pub(super) fn relaxation_times(
+    assembly: &Assembly,
+    task: &AnyTask,
+) -> Option<Result<RelaxationTimes, SceneProblem>> {
+    let fluid = match task {
+        AnyTask::Brownian(task) => &task.drag,
+        AnyTask::Dynamics(dynamics) => dynamics.drag.fluid()?,
+        AnyTask::Equilibrium(_) => return None,
+    };
+    let dofs = assembly.counts().dofs;
+    if dofs > MOST_DOFS {
+        let rule = format!(
+            "relaxation times are limited to {MOST_DOFS} degrees of freedom; this scene has {dofs}"
+        );
+        return Some(Err(SceneProblem::new("filament", "", rule)));
     }
+    let relaxation = relaxation(assembly, fluid, |layout| layout);
+    Some(relaxation.map(|mut relaxation| RelaxationTimes::new(&mut relaxation)))
 }
 
 fn relaxation(

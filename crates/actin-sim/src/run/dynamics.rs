@@ -1,80 +1,20 @@
 //! Motion in time: time step, run and end of the run.
 
 use super::bound::kinetic_limit;
-use super::points::check_points;
+use super::estimate::{Estimate, composition_of};
 use super::recorder::{Ending, Recorder};
 use super::rest::{is_saddle, saddle};
 use super::sink::{Clock, SavedRun, Sink};
-use super::steps::{LongestStep, Steps};
+use super::steps::Steps;
 use super::unknowns::layout;
 use super::{Failure, Outcome, Status};
-use crate::scene::{
-    Dynamics, Filament, Fluid, Integrator, RodLaw, Scene, SceneProblem, StopTolerances, Task,
-};
+use crate::scene::{Dynamics, Filament, Fluid, RodLaw, SceneProblem, StopTolerances};
 use crate::{Assembly, memory};
 use actin_brownian::Langevin;
 use actin_integrate::{Bath, Composition, Drag, Reason, Run};
 use actin_mechanics::{Split, System};
 
-/// Time step and counts of a motion before the run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Estimate {
-    /// Largest frequency of the filament as built (rad/ns); zero for overdamped motion.
-    ///
-    /// For rods that stiffen under shear it is at least the frequency with constant rigidities.
-    pub largest_frequency_rad_per_ns: f64,
-    /// Largest stable time step of the integrator (ns); infinite for overdamped motion.
-    pub stability_limit_ns: f64,
-    /// Time step (ns).
-    pub time_step_ns: f64,
-    /// Number of steps, unless the stop rule ends the run earlier.
-    pub steps: u64,
-    /// Steps between two records.
-    pub steps_between_records: u64,
-    /// Time between two records (ns).
-    pub record_every_ns: f64,
-    /// Load evaluations in these steps; for overdamped motion an estimate from the usual number of
-    /// iterations.
-    pub force_evaluations: u64,
-    /// Longest accurate step of overdamped motion; `None` for other motion.
-    pub longest_sound_step: Option<LongestStep>,
-}
-
-/// The coefficient table of an integrator.
-pub fn composition(integrator: Integrator) -> &'static Composition {
-    match integrator {
-        Integrator::PositionVerlet => &actin_integrate::POSITION_VERLET,
-        Integrator::Pefrl => &actin_integrate::PEFRL,
-        Integrator::Vefrl => &actin_integrate::VEFRL,
-        Integrator::ForestRuth => &actin_integrate::FOREST_RUTH,
-        Integrator::Suzuki => &actin_integrate::SUZUKI,
-    }
-}
-
-/// The coefficient table of the steps of a motion; in a fluid of their conservative part.
-pub(crate) fn composition_of(dynamics: &Dynamics) -> &'static Composition {
-    match dynamics.drag.fluid() {
-        None => composition(dynamics.integrator),
-        Some(_) => &actin_integrate::POSITION_VERLET,
-    }
-}
-
-/// Time step and number of steps of an assembly's motion; `None` for an equilibrium.
-///
-/// # Errors
-/// As [`Plan::new`](super::Plan::new).
-pub(super) fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, SceneProblem> {
-    match &assembly.scene.task {
-        Task::Dynamics(dynamics) => estimate_of(assembly, dynamics).map(Some),
-        Task::Brownian(brownian) => super::brownian::estimate(assembly, brownian).map(Some),
-        Task::Equilibrium(settings) => {
-            assembly.check_slip()?;
-            check_points(assembly, settings).map(|()| None)
-        }
-    }
-}
-
-fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, SceneProblem> {
+pub(super) fn estimate(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let mut frequency = frequency_of(assembly)?;
     if let Some(constant) = with_constant_rods(assembly)? {
@@ -187,7 +127,7 @@ pub(super) fn check_records(
         dynamics.record_every_ns.unwrap_or(steps.record_every_ns)
     );
     let bytes = assembly.bytes + records * memory::of_kept_record(assembly);
-    memory::check(bytes, ("task.record_every_ns", value), || {
+    actin_assembly::memory::check(bytes, ("task.record_every_ns", value), || {
         let bodies = assembly.points.len() + assembly.frames.len();
         format!("{records:.2e} records of {bodies} bodies need")
     })
@@ -301,7 +241,7 @@ fn ended(
         Ending::Slipped(lost, step) => {
             outcome.steps = step;
             let place = format!("at {:.4} ns, ", lost.at().value());
-            Some(lost.failure(place))
+            Some(Failure::from_turn_loss(lost, place))
         }
         Ending::Failed(failure) => {
             outcome.steps = failure.last_good_step;
@@ -383,22 +323,4 @@ fn langevin(
     let friction = assembly.friction(fluid)?;
     Langevin::new(&assembly.system, layout(assembly)?, friction, noise)
         .map_err(|error| SceneProblem::new("task", "", error.to_string()))
-}
-
-impl Estimate {
-    /// Writes the time step and the interval of records of a motion into its scene.
-    pub(super) fn resolve(&self, scene: &mut Scene) {
-        let (step, every) = match &mut scene.task {
-            Task::Dynamics(task) => {
-                if task.drag.fluid().is_some() {
-                    task.integrator = Integrator::PositionVerlet;
-                }
-                (&mut task.time_step_ns, &mut task.record_every_ns)
-            }
-            Task::Brownian(task) => (&mut task.time_step_ns, &mut task.record_every_ns),
-            Task::Equilibrium(_) => return,
-        };
-        *step = Some(self.time_step_ns);
-        *every = Some(self.record_every_ns);
-    }
 }

@@ -1,49 +1,28 @@
 //! Equilibria by Newton's method, from the state as built or along the path of the scene.
 
 use super::lost_load::lost_load;
+use super::model_error::{MeasureModelError, ModelErrorResult};
+use super::outcome::EquilibriumReport;
 use super::record_stream::RecordStream;
 use super::rest::{is_saddle, saddle};
 use super::sink::{Clock, PathPosition, SavedRun, Sink, SolveReport};
 use super::start::near_equilibrium;
 use super::states::{StableStates, search};
 use super::unknowns::newton;
-use super::{At, Failure, Outcome, Progress, Record, RecordSummary, RunPosition, Status};
+use super::{Failure, Outcome, Progress, Record, RecordSummary, RunPosition, Status};
 use crate::Assembly;
+use crate::At;
 use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
-use crate::trade::{ModelErrorResult, model_error};
 use actin_equilibrium::{
-    Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
-    PathError, PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
+    Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path, PathError,
+    PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
 };
-use actin_mechanics::{Residual, State, System};
+use actin_mechanics::{State, System};
 use std::ops::ControlFlow;
-
-/// Certificate, cost and accuracy of an equilibrium.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EquilibriumReport {
-    /// Numbers of negative and unresolved eigenvalues of the stiffness.
-    pub certificate: Certificate,
-    /// Lowest nonzero eigenvalue of the stiffness (pN/nm; rotations count as displacements at 1
-    /// nm), if requested.
-    pub lowest_eigenvalue: Option<f64>,
-    /// Newton steps on the whole path.
-    pub newton_iterations: u64,
-    /// Number of equilibria on the path.
-    pub points: usize,
-    /// Residual force (pN) and torque (pN nm) at round-off, if the last equilibrium did not reach
-    /// its tolerance.
-    pub floor: Option<Residual>,
-    /// Residual force (pN) and torque (pN nm) before each Newton step of the last equilibrium.
-    pub history: Vec<Residual>,
-    /// Stable states near the equilibrium, if requested.
-    pub states: Option<StableStates>,
-    /// Model error and scatter of the requested quantity, or the reason for their absence.
-    pub error: Option<ModelErrorResult>,
-}
 
 pub(super) fn run(
     assembly: &Assembly,
-    settings: &Settings,
+    (settings, model_error): (&Settings, MeasureModelError),
     saved: Option<SavedRun>,
     clock: Clock,
     sink: &mut dyn Sink,
@@ -71,7 +50,7 @@ pub(super) fn run(
     let is_done = failure.is_none() && !is_interrupted;
     let judged = settings.error_of.filter(|_| is_done);
     let error = judged.map(|quantity| {
-        let last = record(&assembly.system, 0.0, &state);
+        let last = Record::of_equilibrium(&assembly.system, 0.0, &state);
         model_error(assembly, &last, quantity)
     });
     let work = newton.work();
@@ -197,7 +176,7 @@ impl<'a> Follower<'a> {
             self.checkpoint();
             let stage = place(self.assembly, self.position.stage);
             let place = format!("{stage}at path parameter {:.4}, ", lost.at().value());
-            return Ok(Some(lost.failure(place)));
+            return Ok(Some(Failure::from_turn_loss(lost, place)));
         }
         let failure = match ended {
             Some(_) if self.is_interrupted => None,
@@ -331,7 +310,7 @@ impl<'a> Follower<'a> {
             Err(failure) => {
                 if !self.is_interrupted {
                     // Keep the best state.
-                    let best = record(&self.assembly.system, 0.0, state);
+                    let best = Record::of_equilibrium(&self.assembly.system, 0.0, state);
                     self.taken.take_unchecked(best);
                 }
                 Err(Box::new(PathFailure {
@@ -369,7 +348,10 @@ impl<'a> Follower<'a> {
     }
 
     fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) -> ControlFlow<()> {
-        if !self.taken.take(record(&self.assembly.system, u, state)) {
+        if !self
+            .taken
+            .take(Record::of_equilibrium(&self.assembly.system, u, state))
+        {
             return ControlFlow::Break(());
         }
         self.position.points += 1;
@@ -442,12 +424,6 @@ impl PathObserver for Follower<'_> {
     fn iterate(&mut self, _step: &Iteration) -> ControlFlow<()> {
         self.go_on()
     }
-}
-
-pub(super) fn record(system: &System, u: f64, state: &State) -> Record {
-    let mut record = Record::new(system, At::Path(u), state.clone());
-    record.row.kinetic_pn_nm = 0.0;
-    record
 }
 
 fn lowest_eigenvalue(

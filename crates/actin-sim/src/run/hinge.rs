@@ -4,9 +4,9 @@
 //! whole turn and its torque changes sign. Hinges are checked after every drift of a motion and at
 //! every equilibrium of a path.
 
-use super::At;
-use crate::assembly::Ramp;
+use crate::At;
 use crate::{Assembly, End};
+use actin_assembly::Ramp;
 use actin_mechanics::{Drive, Interaction, State, UnitQuaternion, rotation};
 use std::f64::consts::FRAC_PI_4;
 use std::fmt;

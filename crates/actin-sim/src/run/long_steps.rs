@@ -1,9 +1,9 @@
 //! Default steps of thermal overdamped motion of rods and quasi-harmonic monomers. Records and
 //! changes in time limit the step, not the relaxation of stretch and shear.
 
-use crate::Assembly;
-use crate::assembly::COARSEST;
 use crate::scene::{Brownian as Task, Filament, Resultant, SceneProblem, Setting};
+use crate::{Assembly, Resolution};
+use actin_assembly::COARSEST;
 
 /// Steps per stage, ramp, period or table interval. Driven motion is delayed by half a step, 0.5 %
 /// of that time.
@@ -49,18 +49,16 @@ pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, S
     if is_athermal {
         return Ok(Some(longest));
     }
-    for rod in &assembly.rods {
-        let lengths = rod.layout.segment_lengths().iter().copied();
-        let shortest = lengths.fold(f64::INFINITY, f64::min);
-        longest = longest.min(of_length(assembly, task, (rod.section, shortest))?);
-    }
-    let sections = assembly.sections.iter().enumerate();
-    for (section, _) in sections.filter(|(_, span)| span.is_ellipsoids()) {
-        let filament = assembly
-            .scene
-            .filament_at(assembly.filament_of_section(section));
-        let whole = filament.map_or(f64::INFINITY, Filament::length_nm);
-        let followed = (whole / FOLLOWED).min(LONGEST_FOLLOWED_NM);
+    for (section, span) in assembly.sections.iter().enumerate() {
+        let followed = match span.resolution {
+            Resolution::Rod { segment_nm } => segment_nm,
+            Resolution::Ellipsoids { .. } => {
+                let filament = assembly.filament_of_section(section);
+                let filament = assembly.scene.filament_at(filament);
+                let whole = filament.map_or(f64::INFINITY, Filament::length_nm);
+                (whole / FOLLOWED).min(LONGEST_FOLLOWED_NM)
+            }
+        };
         longest = longest.min(of_length(assembly, task, (section, followed))?);
     }
     Ok(Some(longest))

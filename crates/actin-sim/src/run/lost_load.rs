@@ -11,7 +11,7 @@ const RESOLVED: f64 = 0.01;
 pub(super) fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProblem> {
     let loads = assembly.scene.loads.iter().enumerate();
     loads.into_iter().find_map(|(i, load)| {
-        let factor = last.state.controls[assembly.loads[i]];
+        let factor = last.state.controls[assembly.load_controls()[i]];
         let (size, residual, unit) = match load.resultant(&assembly.scene) {
             Resultant::Force(force) => (force.norm(), last.residual_force_pn, "pN"),
             Resultant::Couple(couple) => (couple.norm(), last.residual_torque_pn_nm, "pN nm"),

@@ -4,14 +4,17 @@ mod bound;
 mod brownian;
 mod dynamics;
 mod equilibrium;
+mod estimate;
 mod hinge;
 mod long_steps;
 mod lost_load;
+mod model_error;
 mod outcome;
 mod periodic;
 mod plan;
 mod points;
 mod record_stream;
+mod record_summary;
 mod recorder;
 mod records;
 mod rest;
@@ -24,16 +27,17 @@ mod steps;
 mod unknowns;
 
 pub use brownian::RelaxationTimes;
-pub(crate) use dynamics::composition_of;
-pub use dynamics::{Estimate, composition};
-pub use equilibrium::EquilibriumReport;
+pub(crate) use estimate::composition_of;
+pub use estimate::{Estimate, LongestStep, composition};
 pub use hinge::HingeSlip;
-pub use outcome::{FailedRun, Failure, Outcome, RunError, Status};
+pub(crate) use model_error::{MeasureModelError, ModelErrorResult};
+pub use model_error::{ModelError, Scatter};
+pub use outcome::{EquilibriumReport, FailedRun, Failure, Outcome, RunError, Status};
 pub use plan::Plan;
-pub use record_stream::{RecordSummary, RunStatistics};
+pub use record_summary::{RecordSummary, RunStatistics};
 pub(crate) use recorder::record;
 pub use records::{
-    At, EnergyTotals, Record, RecordIter, Records, RecordsError, Row, StoredRecord, Trajectory,
+    EnergyTotals, Record, RecordIter, Records, RecordsError, Row, StoredRecord, Trajectory,
 };
 pub use rest::SaddlePush;
 pub use sink::{
@@ -44,7 +48,6 @@ pub use slip::Slip;
 pub use start::near_equilibrium;
 pub use states::{StableState, StableStates};
 pub use step_check::StepError;
-pub use steps::LongestStep;
 pub use unknowns::newton as solver;
 pub(crate) use unknowns::order;
 
@@ -52,41 +55,13 @@ use crate::scene::{SceneProblem, Task};
 use sink::Clock;
 
 impl Plan<'_> {
-    /// Runs the plan and returns its records in memory.
-    ///
-    /// # Errors
-    /// As [`run_into`](Self::run_into). The records of a failed run are lost.
-    pub fn run(&self) -> Result<(Trajectory, Outcome), RunError> {
-        let mut trajectory = Trajectory::default();
-        let outcome = self.run_into(&mut trajectory)?;
-        Ok((trajectory, outcome))
-    }
-
-    /// Runs the plan and passes records to `sink`.
-    ///
-    /// # Errors
-    /// If the state diverges, a path ends early, twist is lost, the run ends on a saddle or with a
-    /// load below the residual, or states exceed the validity of the model. The sink has all
-    /// records up to the last good one.
-    pub fn run_into(&self, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
-        self.execute(None, sink)
-    }
-
-    /// Resumes an interrupted run, whose records `sink` has.
-    ///
-    /// Interrupted and resumed runs give bitwise the same records and outcome as uninterrupted
-    /// runs, except for the run time.
-    ///
-    /// # Errors
-    /// As [`run_into`](Self::run_into).
-    ///
-    /// # Panics
-    /// If `saved` belongs to another task or to other numbers of bodies.
-    pub fn resume_into(&self, saved: SavedRun, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
-        self.execute(Some(saved), sink)
-    }
-
-    fn execute(&self, saved: Option<SavedRun>, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
+    /// Runs or resumes the plan; `model_error` measures the error of an equilibrium.
+    pub(crate) fn execute(
+        &self,
+        saved: Option<SavedRun>,
+        sink: &mut dyn Sink,
+        model_error: MeasureModelError,
+    ) -> Result<Outcome, RunError> {
         let assembly = self.assembly();
         if assembly.scene.filament.sections.following().is_some() {
             let rule = "sections that follow a motion can only be run by `actin run`, or by `follow::Follower` in Rust";
@@ -101,7 +76,7 @@ impl Plan<'_> {
                 brownian::run(assembly, task, estimate, saved, clock, sink)?
             }
             (Task::Equilibrium(settings), _) => {
-                equilibrium::run(assembly, settings, saved, clock, sink)?
+                equilibrium::run(assembly, (settings, model_error), saved, clock, sink)?
             }
             (Task::Dynamics(_) | Task::Brownian(_), None) => {
                 unreachable!("the plan of a motion has an estimate")

@@ -1,11 +1,14 @@
 //! Outcome of a run: status, cost, warnings and failures.
 
-use super::record_stream::StateWarnings;
-use super::{EquilibriumReport, HingeSlip, SaddlePush, Slip, StepError};
-use crate::notes::Note;
+use super::model_error::ModelErrorResult;
+use super::record_summary::StateWarnings;
+use super::slip::TurnLoss;
+use super::states::StableStates;
+use super::{HingeSlip, SaddlePush, Slip, StepError};
+use super::{ModelError, Scatter};
 use crate::scene::SceneProblem;
-use crate::trade::{ModelError, Scatter};
 use crate::{LawExtrapolation, LinkerEvent, ModelLimitExceeded, UnstableTwist};
+use actin_assembly::Note;
 use actin_equilibrium::{Certificate, PathFailure, Residual};
 use actin_integrate::RunFailure;
 use serde::{Deserialize, Serialize};
@@ -149,6 +152,29 @@ impl Outcome {
     }
 }
 
+/// Certificate, cost and accuracy of an equilibrium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EquilibriumReport {
+    /// Numbers of negative and unresolved eigenvalues of the stiffness.
+    pub certificate: Certificate,
+    /// Lowest nonzero eigenvalue of the stiffness (pN/nm; rotations count as displacements at 1
+    /// nm), if requested.
+    pub lowest_eigenvalue: Option<f64>,
+    /// Newton steps on the whole path.
+    pub newton_iterations: u64,
+    /// Number of equilibria on the path.
+    pub points: usize,
+    /// Residual force (pN) and torque (pN nm) at round-off, if the last equilibrium did not reach
+    /// its tolerance.
+    pub floor: Option<Residual>,
+    /// Residual force (pN) and torque (pN nm) before each Newton step of the last equilibrium.
+    pub history: Vec<Residual>,
+    /// Stable states near the equilibrium, if requested.
+    pub states: Option<StableStates>,
+    /// Model error and scatter of the requested quantity, or the reason for their absence.
+    pub error: Option<ModelErrorResult>,
+}
+
 /// Error of a run without a valid result.
 #[derive(Debug, Error)]
 pub enum RunError {
@@ -209,6 +235,15 @@ pub enum Failure {
         /// Description of the body.
         body: String,
     },
+}
+
+impl Failure {
+    pub(super) fn from_turn_loss(loss: TurnLoss, place: String) -> Self {
+        match loss {
+            TurnLoss::Twist(slip) => Self::TwistLost { place, slip },
+            TurnLoss::Hinge(slip) => Self::HingeSlipped { place, slip },
+        }
+    }
 }
 
 impl fmt::Display for Failure {

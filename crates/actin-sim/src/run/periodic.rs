@@ -1,8 +1,7 @@
 //! Infinite filament of monomers under constant loads, for the local strains of a finite filament.
 
-use crate::assembly::ellipsoids;
 use crate::scene::{Monomers, SceneProblem};
-use crate::trade::weighted;
+use actin_assembly::ellipsoids;
 use actin_ellipsoid::{Cell, CellResponse, Control, Hold, SixVector};
 
 /// Number of monomers in a periodic cell: one period of the helix.
@@ -20,7 +19,7 @@ impl PeriodicFilament {
     /// # Errors
     /// A helix without a period of 13 monomers.
     pub(super) fn new(monomers: &Monomers) -> Result<Self, SceneProblem> {
-        let model = ellipsoids(&weighted(monomers), 0)?;
+        let model = ellipsoids(&monomers.with_quadrature_bonds(), 0)?;
         let cell = Cell::new(&model, PERIOD, Hold::Means);
         let cell = cell.map_err(|error| {
             let rule = format!("the helix must have a period of 13 monomers: {error}");

@@ -1,9 +1,12 @@
 //! Plan of a run.
 
-use super::dynamics::{Estimate, estimate};
+use super::brownian::{self, RelaxationTimes, relaxation_times};
+use super::points::check_points;
+use super::{Estimate, dynamics};
 use crate::Assembly;
-use crate::notes::Note;
-use crate::scene::{Scene, SceneProblem};
+use crate::observe::Observers;
+use crate::scene::{Scene, SceneProblem, Task};
+use actin_assembly::Note;
 use std::time::Instant;
 
 /// Assembly with everything decided before its run: time step, numbers of steps and records, and
@@ -41,7 +44,8 @@ impl<'a> Plan<'a> {
     pub fn new(assembly: &'a Assembly) -> Result<Self, SceneProblem> {
         let began = Instant::now();
         let estimate = estimate(assembly)?;
-        assembly.observers.check(assembly, estimate.as_ref())?;
+        let times = estimate.as_ref().map(Estimate::record_times);
+        Observers::new(assembly).check(assembly, times.as_ref())?;
         let mut scene = assembly.scene.clone();
         if let Some(estimate) = &estimate {
             estimate.resolve(&mut scene);
@@ -72,6 +76,16 @@ impl<'a> Plan<'a> {
         self.estimate.as_ref()
     }
 
+    /// Returns the relaxation times in the fluid of the task, or `None` for tasks without a fluid.
+    /// The cost is comparable to some hundred steps.
+    ///
+    /// # Errors
+    /// If there are more than 5000 degrees of freedom, or drag or couplings without defined
+    /// relaxation times.
+    pub fn relaxation_times(&self) -> Option<Result<RelaxationTimes, SceneProblem>> {
+        relaxation_times(self.assembly, &self.scene.task)
+    }
+
     pub(crate) fn set_up_s(&self) -> f64 {
         self.set_up_s
     }
@@ -84,5 +98,20 @@ impl<'a> Plan<'a> {
         estimate
             .flat_map(|e| [e.notes(&scene.task), Vec::from_iter(e.note_on_means(scene))].concat())
             .collect()
+    }
+}
+
+/// Time step and number of steps of an assembly's motion; `None` for an equilibrium.
+///
+/// # Errors
+/// As [`Plan::new`].
+fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, SceneProblem> {
+    match &assembly.scene.task {
+        Task::Dynamics(dynamics) => dynamics::estimate(assembly, dynamics).map(Some),
+        Task::Brownian(brownian) => brownian::estimate(assembly, brownian).map(Some),
+        Task::Equilibrium(settings) => {
+            assembly.check_slip()?;
+            check_points(assembly, settings).map(|()| None)
+        }
     }
 }

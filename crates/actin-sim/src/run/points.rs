@@ -9,7 +9,7 @@ pub(super) fn check_points(assembly: &Assembly, settings: &Settings) -> Result<(
     let least = assembly.drive.stages() as f64 / settings.largest_step;
     let record = memory::of_kept_record(assembly);
     let value = format!("{:?}", settings.largest_step);
-    memory::check(
+    actin_assembly::memory::check(
         assembly.bytes + least * record,
         ("task.largest_step", value),
         || {

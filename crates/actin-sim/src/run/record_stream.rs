@@ -1,117 +1,20 @@
 //! Record stream of a run with running diagnostics, without storing the records.
 
 use super::hinge::slip_between;
-use super::slip::{LinkWatch, TurnLoss};
+use super::record_summary::{RecordSummary, StateWarnings};
+use super::slip::TurnLoss;
 use super::step_check::StepComparisons;
-use super::{At, Progress, Record, RunPosition, Sink};
-use crate::assembly::{RangeWatch, TwistRecords, worst_of};
-use crate::observe::{Memory, View};
-use crate::{Assembly, LawExtrapolation, ModelLimitExceeded, UnstableTwist};
+use super::{Progress, Record, RunPosition, Sink};
+use crate::Assembly;
+use crate::At;
+use crate::observe::Observers;
 use actin_mechanics::State;
-use serde::{Deserialize, Serialize};
-
-/// Summary of the records of a run, including the last record.
-#[derive(Clone, Debug)]
-pub struct RecordSummary {
-    /// Running statistics.
-    pub carried: RunStatistics,
-    /// Last record.
-    pub last: Option<Record>,
-}
-
-/// Running statistics of the records, stored in checkpoints.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct RunStatistics {
-    /// Number of records.
-    pub count: usize,
-    links: LinkWatch,
-    beyond_use: Vec<ModelLimitExceeded>,
-    ranges: RangeWatch,
-    twist: TwistRecords,
-    observed: Memory,
-    pub(super) steps: StepComparisons,
-}
-
-#[derive(Debug)]
-pub(super) struct StateWarnings {
-    pub(super) beyond_use: Vec<ModelLimitExceeded>,
-    pub(super) beyond_range: Vec<LawExtrapolation>,
-    pub(super) unstable_twist: Vec<UnstableTwist>,
-    pub(super) steps: StepComparisons,
-}
-
-impl RecordSummary {
-    /// Creates the summary of a run of `assembly` without records.
-    pub fn new(assembly: &Assembly) -> Self {
-        let mut start = assembly.system.state().clone();
-        // Without a path, the caller sets held ends.
-        if !assembly.drive.is_still() {
-            assembly.drive.place(&mut start, 0.0);
-        }
-        Self {
-            carried: RunStatistics {
-                count: 0,
-                links: LinkWatch::new(assembly, &start),
-                beyond_use: Vec::new(),
-                ranges: RangeWatch::new(assembly),
-                twist: TwistRecords::new(assembly),
-                observed: assembly.observers.memory(),
-                steps: StepComparisons::default(),
-            },
-            last: None,
-        }
-    }
-
-    /// Creates the summary of a run that continues after a switch of cells with a first record.
-    /// Statistics that do not depend on the resolution are kept.
-    pub(crate) fn behind_switch(&self, assembly: &Assembly, first: Record) -> Self {
-        let mut recorded = Self::new(assembly);
-        recorded.carried.links = self.carried.links.clone();
-        recorded.carried.observed = self.carried.observed.clone();
-        recorded.carried.links.follow(assembly, &first);
-        recorded.push(assembly, first);
-        recorded
-    }
-
-    /// Returns the last record.
-    pub fn last(&self) -> Option<&Record> {
-        self.last.as_ref()
-    }
-
-    /// Returns the number of records.
-    pub fn count(&self) -> usize {
-        self.carried.count
-    }
-
-    fn push(&mut self, assembly: &Assembly, mut record: Record) -> &Record {
-        let all = &mut self.carried;
-        let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
-        let view = View::new(assembly, (record.at, &record.state), energies);
-        let observed = assembly.observers.row(&view, &mut all.observed);
-        record.row.booked = assembly.booked(&record.state);
-        record.row.observed = observed;
-        let beyond = assembly.beyond_use(&record.state);
-        all.beyond_use = worst_of(all.beyond_use.drain(..).chain(beyond).collect::<Vec<_>>());
-        all.ranges.add(assembly, &record.state);
-        all.twist.add(assembly, &record.state);
-        all.count += 1;
-        self.last.insert(record)
-    }
-}
-
-impl RunStatistics {
-    /// Returns `true` if the statistics belong to the same observers and filaments.
-    pub fn fits(&self, other: &Self) -> bool {
-        self.observed.fits(&other.observed)
-            && self.links.fits(&other.links)
-            && self.twist.fits(&other.twist)
-    }
-}
 
 /// Passes records to a sink while checking for lost twist.
 pub(super) struct RecordStream<'a> {
     pub(super) sink: &'a mut dyn Sink,
     assembly: &'a Assembly,
+    observers: Observers,
     recorded: RecordSummary,
     lost: Option<TurnLoss>,
 }
@@ -125,6 +28,7 @@ impl<'a> RecordStream<'a> {
         Self {
             sink,
             assembly,
+            observers: Observers::new(assembly),
             recorded: recorded.unwrap_or_else(|| RecordSummary::new(assembly)),
             lost: None,
         }
@@ -152,7 +56,7 @@ impl<'a> RecordStream<'a> {
 
     /// Accepts the record of a failed attempt without a check of its twist.
     pub(super) fn take_unchecked(&mut self, record: Record) {
-        let record = self.recorded.push(self.assembly, record);
+        let record = self.recorded.push((self.assembly, &self.observers), record);
         self.sink.record(record);
     }
 
@@ -188,13 +92,7 @@ impl<'a> RecordStream<'a> {
     }
 
     pub(super) fn into_remarks(self) -> StateWarnings {
-        let carried = self.recorded.carried;
-        StateWarnings {
-            beyond_use: carried.beyond_use,
-            beyond_range: carried.ranges.end(self.assembly),
-            unstable_twist: carried.twist.end(),
-            steps: carried.steps,
-        }
+        self.recorded.into_warnings(self.assembly)
     }
 
     pub(super) fn checkpoint(&mut self, position: &RunPosition, wall_s: f64) {

@@ -6,10 +6,11 @@ use super::rest::{RestJudge, SaddlePush, is_saddle};
 use super::sink::{Clock, MotionPosition, ResolutionSwitch, SavedRun};
 use super::slip::TurnLoss;
 use super::step_check::StepCheck;
-use super::{At, Progress, Record, RecordSummary, Row, RunPosition, Sink};
-use crate::assembly::{Log, Ramp};
+use super::{Progress, Record, RecordSummary, Row, RunPosition, Sink};
+use crate::At;
 use crate::scene::{Dynamics, Task};
 use crate::{Assembly, EnergyExchange, LinkerEvent};
+use actin_assembly::{Log, Ramp};
 use actin_equilibrium::Certificate;
 use actin_integrate::{
     Checkpoint, DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
@@ -125,7 +126,7 @@ impl<'a> Recorder<'a> {
 
     pub(super) fn let_happen(&self, system: &mut System) {
         if let Some(kinetics) = &self.assembly.kinetics {
-            system.set_step_end(Box::new(kinetics.happenings(&self.log)));
+            system.set_step_end(kinetics.event_process(&self.log));
         }
     }
 

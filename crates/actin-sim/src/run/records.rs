@@ -1,46 +1,12 @@
 //! Records in memory or read one by one from files.
 
-use crate::{Assembly, EnergyExchange, Part, Term};
+use crate::{Assembly, At, EnergyExchange, Part, Term};
 use actin_mechanics::{Loads, State, System};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io;
 use std::ops::Deref;
 use thiserror::Error;
-
-/// Time or path parameter of a record.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum At {
-    /// Time (ns).
-    Time(f64),
-    /// Path parameter, which counts stages.
-    Path(f64),
-}
-
-impl At {
-    /// Value of either kind.
-    pub fn value(self) -> f64 {
-        match self {
-            Self::Time(value) | Self::Path(value) => value,
-        }
-    }
-
-    /// Time (ns); `None` for an equilibrium.
-    pub fn time_ns(self) -> Option<f64> {
-        match self {
-            Self::Time(time_ns) => Some(time_ns),
-            Self::Path(_) => None,
-        }
-    }
-
-    /// Path parameter; `None` for a motion in time.
-    pub(crate) fn path(self) -> Option<f64> {
-        match self {
-            Self::Time(_) => None,
-            Self::Path(parameter) => Some(parameter),
-        }
-    }
-}
 
 /// Recorded state and its numbers, which are fields of the record through [`Deref`].
 #[derive(Clone, Debug, PartialEq)]
@@ -66,6 +32,13 @@ impl Record {
             row: Cow::Borrowed(&self.row),
             state: Some(Cow::Borrowed(&self.state)),
         }
+    }
+
+    /// Creates the record of an equilibrium at a path parameter, without observed quantities.
+    pub(super) fn of_equilibrium(system: &System, parameter: f64, state: &State) -> Self {
+        let mut record = Self::new(system, At::Path(parameter), state.clone());
+        record.row.kinetic_pn_nm = 0.0;
+        record
     }
 
     /// Evaluates energies and residuals of a state, without observed quantities.
@@ -194,7 +167,11 @@ impl StoredRecord<'_> {
     ///
     /// # Errors
     /// The numbers of points, frames, energies or observed quantities differ.
-    pub(crate) fn ensure_fits(&self, i: usize, assembly: &Assembly) -> Result<(), RecordsError> {
+    pub(crate) fn ensure_fits(
+        &self,
+        i: usize,
+        (assembly, observed_columns): (&Assembly, usize),
+    ) -> Result<(), RecordsError> {
         let bodies = self.state.iter().flat_map(|state| {
             [
                 ("points", state.points.len(), assembly.points.len()),
@@ -204,7 +181,7 @@ impl StoredRecord<'_> {
         let (energies, observed) = (self.row.energies_pn_nm.len(), self.row.observed.len());
         let columns = [
             ("energies", energies, assembly.terms.len()),
-            ("observables", observed, assembly.observed().len()),
+            ("observables", observed, observed_columns),
         ];
         let mut counts = bodies.chain(columns);
         match counts.find(|(_, found, expected)| found != expected) {

@@ -1,6 +1,7 @@
 //! Output of a run: records, progress and checkpoints.
 
-use super::{At, Record, RecordSummary, SaddlePush, Trajectory};
+use super::{Record, RecordSummary, SaddlePush, Trajectory};
+use crate::At;
 use crate::LinkerEvent;
 use actin_equilibrium::{Certificate, PathCheckpoint, SolverWork};
 use actin_integrate::Checkpoint;

@@ -5,9 +5,10 @@
 //! difference is a whole number of turns, so the threshold is half a turn. Other differences occur
 //! when the straight extensions of the ends overlap; these are ignored.
 
-use super::{At, Failure, HingeSlip, Record};
+use super::{HingeSlip, Record};
+use crate::At;
 use crate::scene::FreeTranslation;
-use crate::shape::{Ribbon, WHOLE, turn_of_ends};
+use crate::shape::{Ribbon, WHOLE};
 use crate::{Assembly, End};
 use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
@@ -71,13 +72,6 @@ impl TurnLoss {
             Self::Hinge(slip) => slip.at,
         }
     }
-
-    pub(super) fn failure(self, place: String) -> Failure {
-        match self {
-            Self::Twist(slip) => Failure::TwistLost { place, slip },
-            Self::Hinge(slip) => Failure::HingeSlipped { place, slip },
-        }
-    }
 }
 
 /// Monitor of filaments with held or hinged ends; a hinge counts as a joint.
@@ -108,7 +102,7 @@ impl LinkWatch {
             let [Some(one), Some(other)] = ends else {
                 return None;
             };
-            let turn = turn_of_ends(assembly, filament, At::Path(0.0))?;
+            let turn = assembly.turn_of_ends(filament, At::Path(0.0))?;
             let ribbon = Ribbon::from_state(assembly, filament, start);
             Some(LinkRecord {
                 filament,
@@ -164,7 +158,7 @@ impl LinkWatch {
 impl LinkRecord {
     /// Turn of the ends and sum of twist and writhe (turns), if they indicate a slip.
     fn compare(&mut self, assembly: &Assembly, state: &State, at: At) -> Option<(f64, f64)> {
-        let link_turns = turn_of_ends(assembly, self.filament, at)?;
+        let link_turns = assembly.turn_of_ends(self.filament, at)?;
         let ribbon = Ribbon::from_state(assembly, self.filament, state);
         let is_forward = ribbon.is_forward();
         let may_go_round = self.is_loose && !(is_forward && self.was_forward);

@@ -12,10 +12,10 @@
 //! nm), no initial guess is made.
 
 use super::periodic::{PERIOD, PeriodicFilament};
-use crate::assembly::Part;
 use crate::scene::{Anchors, End, Filament, FreeTranslation, Task};
 use crate::shape::axis::CrossSection;
 use crate::{Assembly, FilamentSpan};
+use actin_assembly::Part;
 use actin_ellipsoid::{CellResponse, Displacements, SixVector};
 use actin_mechanics::{Loads, State, UnitQuaternion, Vector3, rotation};
 

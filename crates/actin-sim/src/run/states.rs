@@ -1,8 +1,9 @@
 //! Search for other stable states near the equilibrium at the end of a path.
 
+use super::Record;
 use super::record_stream::RecordStream;
-use super::{At, Record};
 use crate::Assembly;
+use crate::At;
 use actin_equilibrium::{
     Iteration, KnownEquilibrium, Newton, Search, SearchObserver, SearchResult, SolveError,
 };
@@ -74,7 +75,7 @@ pub(super) fn search(
             Err(error) => return Err(error),
         };
     let states = states.into_iter().map(|one| StableState {
-        record: super::equilibrium::record(&assembly.system, at.value(), &one.state),
+        record: Record::of_equilibrium(&assembly.system, at.value(), &one.state),
         above_result_pn_nm: one.equilibrium.energy - energy,
         // The result has no initial guess.
         starts: one.found - usize::from(one.is_known),

@@ -2,7 +2,7 @@
 
 use super::Estimate;
 use crate::Assembly;
-use crate::assembly::Part;
+use actin_assembly::Part;
 use actin_brownian::Brownian;
 use actin_integrate::Stepper;
 use actin_mechanics::{State, System};

@@ -1,8 +1,8 @@
 //! Number of time steps of a motion and between its records.
 
 use super::{Estimate, composition};
-use crate::notes::{Note, codes};
 use crate::scene::{Dynamics, Scene, SceneProblem, Task};
+use actin_assembly::{Note, codes};
 use actin_integrate::Drag;
 
 const DEFAULT_RECORDS: f64 = 100.0;
@@ -121,17 +121,6 @@ fn between_records(duration: f64, every: f64, fewest: f64) -> Option<f64> {
     let period = (1..=MOST_PERIOD).find(is_period)? as f64;
     let between = period * (fewest / period).ceil();
     (period <= 1.0 || between <= MOST_EXTRA * fewest).then_some(between)
-}
-
-/// Longest accurate steps of overdamped thermal motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LongestStep {
-    /// Default step (ns), accurate for slow modes.
-    pub ns: f64,
-    /// Longest midpoint step (ns), accurate for all modes; longer steps of rods use random stress.
-    pub of_midpoints_ns: f64,
-    /// `true` if monomers have bonds, which allow no longer steps.
-    pub has_bonds: bool,
 }
 
 impl Estimate {

@@ -6,14 +6,12 @@
 //! end.
 
 use super::Ribbon;
+use super::ribbon::{PARALLEL, is_parallel};
 use super::twist::angles;
 use super::writhe::triangle;
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
-/// Unit vectors are parallel if 1 minus their cosine is below this. The writhe then belongs to a
-/// closed curve to 1e-4 of a turn.
-const PARALLEL: f64 = 1e-8;
 /// Distance (nm) below which parallel lines coincide: far above round-off, far below displacements
 /// of scenes.
 const ONE_LINE_NM: f64 = 1e-6;
@@ -84,10 +82,6 @@ impl Ribbon {
         let largest = joints.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         largest.unwrap_or_default()
     }
-}
-
-pub(super) fn is_parallel(one: Vector3, other: Vector3) -> bool {
-    1.0 - one.dot(&other) <= PARALLEL
 }
 
 /// Writhe of a curve with these unit tangents if all point forward along the first; `None`
@@ -277,7 +271,7 @@ mod tests {
                     state.points.position.set(i + 1, place);
                 }
                 assembly.drive.place(&mut state, share);
-                let expected = super::super::turn_of_ends(&assembly, 0, At::Path(share)).unwrap();
+                let expected = assembly.turn_of_ends(0, At::Path(share)).unwrap();
                 let found = Ribbon::new(&assembly, &state).linking().unwrap();
                 assert!(
                     (found - expected).abs() < 1e-9,

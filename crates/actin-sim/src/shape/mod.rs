@@ -18,7 +18,7 @@ mod writhe;
 pub(crate) use buckle::Buckle;
 pub(crate) use buckle::equally_spaced;
 pub use link::link;
-pub(crate) use link::{WHOLE, link_at, link_is_unknown, path_parameter, turn_of_ends};
+pub(crate) use link::{WHOLE, link_is_unknown};
 pub(crate) use profile::energy_per_length;
 pub use profile::{ProfilePoint, profile, profile_of};
 pub use ribbon::Ribbon;

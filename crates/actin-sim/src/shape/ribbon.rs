@@ -1,9 +1,12 @@
 //! Centre line of a filament with a frame on each edge, for every resolution.
 
-use super::linking::is_parallel;
 use super::{extended_writhe, twist};
 use crate::{Assembly, End, FilamentSpan};
 use actin_mechanics::{State, UnitQuaternion, Vector3};
+
+/// Unit vectors are parallel if 1 minus their cosine is below this. The writhe then belongs to a
+/// closed curve to 1e-4 of a turn.
+pub(super) const PARALLEL: f64 = 1e-8;
 
 /// Largest number of vertices for the writhe, whose cost is quadratic: 5e7 solid angles take a few
 /// seconds.
@@ -248,35 +251,19 @@ fn held_frame(
     end: End,
 ) -> Option<(f64, UnitQuaternion)> {
     let clamp = assembly.held.fixed_at(filament, end)?;
-    let frame = outermost(assembly, clamp, end)?;
+    let frame = assembly.clamps[clamp].outermost_frame(end)?;
     let s_nm = assembly.frames[frame].s_nm;
     Some((s_nm, from_rest(assembly, state, frame)))
 }
 
-/// Axes as built of the outermost held frame of an end, or of the held frame of its hinge; `None`
-/// if the end rotates freely.
-pub(super) fn built_frame(
-    assembly: &Assembly,
-    filament: usize,
-    end: End,
-) -> Option<UnitQuaternion> {
-    let clamp = assembly.held.turned_at(filament, end)?;
-    let frame = outermost(assembly, clamp, end)?;
-    let span = &assembly.filaments[filament];
-    Some(span.frame_at(assembly.frames[frame].s_nm))
-}
-
 fn built_axis(assembly: &Assembly, filament: usize, end: End) -> Option<Vector3> {
-    built_frame(assembly, filament, end).map(|frame| frame * Vector3::z())
+    assembly
+        .built_frame(filament, end)
+        .map(|frame| frame * Vector3::z())
 }
 
-/// Outermost frame among those that the clamp of an end holds.
-fn outermost(assembly: &Assembly, clamp: usize, end: End) -> Option<usize> {
-    let frames = &assembly.clamps[clamp].frames;
-    match end {
-        End::Start => frames.first().copied(),
-        End::End => frames.last().copied(),
-    }
+pub(super) fn is_parallel(one: Vector3, other: Vector3) -> bool {
+    1.0 - one.dot(&other) <= PARALLEL
 }
 
 #[cfg(test)]

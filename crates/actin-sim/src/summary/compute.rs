@@ -5,8 +5,8 @@ use super::{
     ResidualSummary, ShapeSummary, StabilitySummary, StatesSummary, Summary, ThermalSummary,
     WorkSummary,
 };
-use crate::observe::{Averages, View};
-use crate::{Assembly, At, End, EnergyExchange, Outcome, Record, Row, Status, Task, shape};
+use crate::observe::{Averages, Observers, View};
+use crate::{Assembly, At, End, EnergyExchange, Outcome, Record, Row, Status, Task};
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, Residual};
 
@@ -19,7 +19,7 @@ impl Summary {
             Task::Equilibrium(_) => At::Path(0.0),
         };
         let state = assembly.rest.clone();
-        let observers = &assembly.observers;
+        let observers = Observers::new(assembly);
         let energies_pn_nm = vec![0.0; assembly.terms.len()];
         let view = View::new(assembly, (at, &state), (&energies_pn_nm, 0.0));
         let observed = observers.row(&view, &mut observers.memory());
@@ -76,7 +76,7 @@ impl Summary {
             step_errors: outcome.step_errors.clone(),
             beyond_use: outcome.beyond_use.clone(),
             linkers: LinkerSummary::all(assembly, &last.state),
-            observables: Averages::of_one(assembly, last),
+            observables: Averages::of_one(assembly, (last.at, &last.observed)),
             smallest_gap_nm: assembly.smallest_gap_nm(&last.state),
             shape: first.shape,
             residual: ResidualSummary::new(last),
@@ -121,7 +121,7 @@ impl FilamentSummary {
         for interaction in assembly.system.interactions() {
             interaction.add_loads(&last.state, &mut loads);
         }
-        let here = (last, shape::path_parameter(assembly, last.at));
+        let here = (last, assembly.path_parameter(last.at));
         let filaments = 0..assembly.filaments.len();
         filaments
             .map(|filament| Self::new(assembly, filament, here, &loads))

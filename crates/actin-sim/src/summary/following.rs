@@ -1,8 +1,8 @@
 //! Summary of a motion with switches of cells.
 
 use super::Summary;
-use crate::assembly::worst_of;
 use crate::follow::StretchStart;
+use actin_assembly::worst;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -37,7 +37,7 @@ impl Summary {
         for one in stretches {
             all.add_remarks(one);
         }
-        all.beyond_use = worst_of(std::mem::take(&mut all.beyond_use));
+        all.beyond_use = worst(std::mem::take(&mut all.beyond_use));
         all.unstable_twist
             .sort_by(|a, b| b.compression_pn.total_cmp(&a.compression_pn));
         all.unstable_twist.truncate(1);

@@ -21,12 +21,12 @@ pub use shape::ShapeSummary;
 pub use states::{StateSummary, StatesSummary};
 pub use thermal::ThermalSummary;
 
-use crate::notes::Note;
-use crate::trade::{ModelError, Scatter, SectionChoice};
 use crate::{
     Assembly, Counts, LawExtrapolation, ModelLimitExceeded, ObservableSummary, Outcome, SaddlePush,
     Status, StepError, UnstableTwist,
 };
+use crate::{ModelError, Scatter, SectionChoice};
+use actin_assembly::Note;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use thermal::LateKinetic;

@@ -30,7 +30,7 @@ impl ShapeSummary {
         Self {
             twist_turns: ribbon.twist(),
             writhe: shape::writhe_of(assembly, filament, &ribbon),
-            link_turns: shape::link_at(assembly, filament, parameter),
+            link_turns: assembly.link_at(filament, parameter),
             largest_distance_nm: ribbon.largest_distance_nm(),
         }
     }

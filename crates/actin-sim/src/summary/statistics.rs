@@ -9,7 +9,7 @@ struct RecordStatistics<'a> {
     assembly: &'a Assembly,
     records: usize,
     kinetic: LateKinetic,
-    averages: Averages<'a>,
+    averages: Averages,
 }
 
 impl<'a> RecordStatistics<'a> {
@@ -28,7 +28,7 @@ impl<'a> RecordStatistics<'a> {
     /// # Errors
     /// The record has other bodies or columns than the assembly.
     fn add(&mut self, record: &StoredRecord<'_>) -> Result<(), RecordsError> {
-        record.ensure_fits(self.records, self.assembly)?;
+        record.ensure_fits(self.records, (self.assembly, self.averages.width()))?;
         let row = &record.row;
         self.records += 1;
         self.kinetic.add(row.kinetic_pn_nm);

@@ -1,7 +1,7 @@
 //! Warnings that follow from other keys of the summary.
 
 use super::{Status, Summary};
-use crate::notes::{Note, codes};
+use actin_assembly::{Note, codes};
 
 const DERIVED: [&str; 7] = [
     codes::LAW_RANGE,

@@ -2,7 +2,6 @@
 
 use super::measure::{Measurer, Values};
 use super::run::{Limits, run_once};
-use super::study::errors;
 use super::worst;
 use crate::scene::{Scene, Task};
 
@@ -70,7 +69,7 @@ pub(super) fn closest(
     error: f64,
 ) -> Option<OtherState> {
     let states = branches.iter().map(|branch| OtherState {
-        error: worst(&errors(measurer, &branch.values, values)),
+        error: worst(&measurer.errors(&branch.values, values)),
         above_reference_pn_nm: branch.above_reference_pn_nm,
     });
     let closest = states.min_by(|a, b| a.error.total_cmp(&b.error));
@@ -109,7 +108,7 @@ mod tests {
             run_once(&scene, limits).map(|run| measurer.values(&run.assembly, &run.records));
         let reference = reference.expect("the path ends at an equilibrium");
         for branch in &branches {
-            let error = worst(&errors(&measurer, &reference, &branch.values));
+            let error = worst(&measurer.errors(&reference, &branch.values));
             let state = closest(&measurer, &branches, &branch.values, error).expect("it is known");
             assert!(state.error < 1e-9 && error > 0.01, "{state:?}, {error}");
         }

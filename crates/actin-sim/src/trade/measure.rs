@@ -1,6 +1,6 @@
 //! Compared quantities: numbers and vectors of records, defined for every resolution.
 
-use crate::observe::View;
+use crate::observe::{View, observed_columns};
 use crate::scene::{
     End, FreeTranslation, Linker, Quantity, Resultant, Scene, SceneProblem, Setting,
 };
@@ -223,6 +223,13 @@ pub(super) struct Measurer {
 }
 
 impl Measurer {
+    /// Relative errors of all items; `None` for items without a value.
+    pub(super) fn errors(&self, reference: &Values, values: &Values) -> Vec<Option<f64>> {
+        let pairs = reference.iter().zip(values);
+        let items = self.items.iter().zip(pairs);
+        items.map(|(item, (a, b))| item.error(a, b)).collect()
+    }
+
     /// Finds the items of `measures`, or of the default quantities if empty, in the assembled reference.
     ///
     /// # Errors
@@ -367,8 +374,7 @@ fn moments(item: &Item) -> [Item; 2] {
 /// Returns the default quantities: the observables of the scene and the tip displacements, or the heights if no tip
 /// is free.
 fn by_default(assembly: &Assembly) -> Vec<Measure> {
-    let mut measures: Vec<Measure> = assembly
-        .observed()
+    let mut measures: Vec<Measure> = observed_columns(assembly)
         .iter()
         .map(|column| Measure::Observable(column_stem(column).to_owned()))
         .collect();
@@ -413,7 +419,7 @@ fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
             .filter(|linker| one.is_none_or(|one| one == *linker))
             .map(|linker| Item::new(format!("linker {linker}"), "pN", Kind::Linker(linker)))
             .collect(),
-        Measure::Observable(name) => columns(assembly.observed(), name),
+        Measure::Observable(name) => columns(&observed_columns(assembly), name),
     }
 }
 

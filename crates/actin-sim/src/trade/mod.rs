@@ -19,18 +19,16 @@ mod table;
 pub use branches::OtherState;
 pub use measure::{Item, Measure};
 pub(crate) use model_error::model_error;
-pub use model_error::{ModelError, Scatter};
-pub use section_choice::SectionChoice;
 pub(crate) use section_choice::choose;
-/// Model error and scatter of a quantity, or the reason for their absence.
-pub(crate) type ModelErrorResult = Result<(ModelError, Scatter), SceneProblem>;
-pub(crate) use resolution::weighted;
 pub use study::trade;
 
 use crate::Counts;
 use crate::scene::{Scene, SceneProblem};
 use std::time::Duration;
 use thiserror::Error;
+
+/// Largest error of the reference itself, as a fraction of the wanted error.
+const SETTLED: f64 = 1.0 / 3.0;
 
 /// Options of a trade.
 #[derive(Clone, Debug, PartialEq)]

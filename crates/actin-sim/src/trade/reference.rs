@@ -1,11 +1,12 @@
 //! Reference of a trade: every monomer, or the finest resolution within the budget.
 
+use super::SETTLED;
 use super::ladder::{self, Proposal};
 use super::measure::Measurer;
+use super::resolution::with_records_of;
 use super::resolution::{FullResolution, every_monomer};
 use super::run::{Limits, TrialFailure};
 use super::sample::Sample;
-use super::study::{SETTLED, errors, with_records_of};
 use super::{Options, Reference, TradeCallbacks, TradeError, worst};
 use crate::scene::{Scene, SceneProblem};
 use crate::{Assembly, Plan};
@@ -134,7 +135,7 @@ impl<'a> Setup<'a> {
         spent_s: f64,
     ) -> ReferenceRun {
         let own_errors = match coarser {
-            Some(coarser) => errors(&self.measurer, &sample.values, &coarser.sample.values),
+            Some(coarser) => self.measurer.errors(&sample.values, &coarser.sample.values),
             None if scene.thermal().is_some() => {
                 let items = self.measurer.items.iter().zip(&sample.values);
                 let sizes = items.map(|(item, values)| item.mean_size(values));

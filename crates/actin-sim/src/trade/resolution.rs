@@ -2,8 +2,7 @@
 
 use crate::Assembly;
 use crate::scene::{
-    Anchors, Couple, End, Force, Hold, Load, Monomers, RodLaw, RodModel, RotaryInertia, Scene,
-    Section, Task,
+    Anchors, Couple, End, Force, Hold, Load, RodLaw, RodModel, RotaryInertia, Scene, Section, Task,
 };
 use actin_cosserat::Homogenised;
 
@@ -13,7 +12,8 @@ const SHORTEST_ROD_NM: f64 = 36.0;
 /// Largest fraction of monomers in candidates with windows; above it windows save little time.
 const MOST_MONOMERS: f64 = 0.75;
 
-const POINTS: usize = 12;
+/// Sampled bonds per interface, and number of filaments with sampled bonds.
+pub(super) const DRAWN: (usize, u64) = (64, 3);
 
 /// A scene with every monomer resolved, except for filaments with fixed sections.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ pub(super) type FixedSections = Vec<Option<&'static str>>;
 pub(super) fn every_monomer(scene: &Scene) -> (Scene, FixedSections) {
     let (mut full, fixed) = every_monomer_of(scene, |_| true);
     for filament in full.filaments_mut() {
-        filament.monomers = weighted(&filament.monomers);
+        filament.monomers = filament.monomers.with_quadrature_bonds();
     }
     if let Task::Brownian(task) = &mut full.task {
         task.interfaces.allow_long_steps(task.temperature_k);
@@ -65,17 +65,32 @@ pub(super) fn every_monomer_of(
     (full, fixed)
 }
 
-pub(crate) fn weighted(written: &Monomers) -> Monomers {
-    if written.anchors == Anchors::Cubature {
-        return written.clone();
+/// Returns the scene with the record interval of the plan and without extra results of equilibria.
+pub(super) fn with_records_of(mut scene: Scene, planned: &Scene) -> Scene {
+    match (&mut scene.task, &planned.task) {
+        (Task::Dynamics(one), Task::Dynamics(other)) => one.record_every_ns = other.record_every_ns,
+        (Task::Brownian(one), Task::Brownian(other)) => one.record_every_ns = other.record_every_ns,
+        _ => {}
     }
-    Monomers {
-        seed: 0,
-        anchors: Anchors::Cubature,
-        lateral_bonds: POINTS,
-        longitudinal_bonds: POINTS,
-        ..written.clone()
+    if let Task::Equilibrium(settings) = &mut scene.task {
+        (
+            settings.states,
+            settings.error_of,
+            settings.lowest_eigenvalue,
+        ) = (0, None, false);
     }
+    scene
+}
+
+/// Returns the scene with sampled bonds in every interface.
+pub(super) fn drawn(scene: &Scene, seed: u64) -> Scene {
+    let mut drawn = scene.clone();
+    for filament in drawn.filaments_mut() {
+        let monomers = &mut filament.monomers;
+        (monomers.anchors, monomers.seed) = (Anchors::Independent, seed);
+        (monomers.lateral_bonds, monomers.longitudinal_bonds) = (DRAWN.0, DRAWN.0);
+    }
+    drawn
 }
 
 fn monomers(from_nm: f64, to_nm: f64) -> Section {

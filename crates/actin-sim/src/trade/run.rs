@@ -1,5 +1,6 @@
 //! One run of a candidate: its records and its time, including the assembly.
 
+use super::model_error;
 use crate::scene::{Scene, SceneProblem, Task};
 use crate::{Assembly, Counts, Plan, Record, RunError, Sink, StableStates};
 use std::time::{Duration, Instant};
@@ -62,7 +63,7 @@ pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, T
         records: Vec::new(),
         is_cut: false,
     };
-    let outcome = plan.run_into(&mut recorder);
+    let outcome = plan.execute(None, &mut recorder, model_error);
     let Recorder {
         records, is_cut, ..
     } = recorder;

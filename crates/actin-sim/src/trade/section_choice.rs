@@ -2,14 +2,12 @@
 
 use super::ladder::{self, Proposal};
 use super::measure::{Measure, Measurer, Values};
-use super::resolution::{FullResolution, every_monomer_of};
+use super::resolution::{FullResolution, every_monomer_of, with_records_of};
 use super::run::{Limits, RunResult, TrialFailure, run_once};
-use super::study::{errors, with_records_of};
 use super::worst;
-use crate::notes::{Note, codes};
 use crate::scene::{Adaptive, Scene, SceneProblem, Section, Task};
 use crate::{Assembly, Plan};
-use serde::{Deserialize, Serialize};
+use actin_assembly::SectionChoice;
 use std::time::Instant;
 
 /// Limit of the bond evaluations of a reference motion, a few seconds of time. The comparison of a longer motion covers
@@ -20,73 +18,6 @@ const FEWEST_RECORDS: usize = 10;
 
 /// Evaluation time of a rod segment under `Homogenised`, in evaluations of a bond.
 const BONDS_PER_SEGMENT: f64 = 15.0;
-
-/// Chosen sections, with the reasons of the choice.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SectionChoice {
-    /// Wanted quantities, with the names of `actin trade`, and their largest relative errors.
-    pub wanted: Vec<(String, f64)>,
-    /// Limit of the number of monomers; `None` without a limit.
-    pub most_monomers: Option<usize>,
-    /// True if all wanted errors are met.
-    pub is_met: bool,
-    /// Name of the chosen resolution.
-    pub name: String,
-    /// Number of resolved monomers.
-    pub monomers: usize,
-    /// Largest relative error of each wanted quantity against every monomer; empty if no reference was run.
-    pub errors: Vec<f64>,
-    /// Fraction of the records of a motion that were compared.
-    pub share: f64,
-    /// Number of resolutions compared with the reference.
-    pub tried: usize,
-    /// Time of the choice (s).
-    pub wall_s: f64,
-}
-
-impl SectionChoice {
-    /// Returns the choice and its errors as a note, or as a warning if the wanted errors are not met.
-    pub(crate) fn note(&self) -> Note {
-        let wanted = self.wanted.iter();
-        let wanted: Vec<String> = wanted
-            .map(|(what, error)| format!("{what} within {} %", 100.0 * error))
-            .collect();
-        let limit = self
-            .most_monomers
-            .map_or_else(String::new, |most| format!(" with at most {most} monomers"));
-        let found = if self.errors.is_empty() {
-            "; the all-monomer equilibrium is the reference, so no comparison was run".to_owned()
-        } else {
-            let errors = self.errors.iter().map(|e| format!("{:.2} %", 100.0 * e));
-            let errors: Vec<String> = errors.collect();
-            let part = if self.share < 1.0 {
-                format!(" in the first {:.0} % of the motion", 100.0 * self.share)
-            } else {
-                String::new()
-            };
-            format!(
-                "; the error relative to the all-monomer model is {}{part}",
-                errors.join(", ")
-            )
-        };
-        let missed = if self.is_met {
-            ""
-        } else {
-            ". The requested errors are not reached with at most this number of monomers: this resolution has \
-             the smallest error of those compared. Increase `monomers` or `error`"
-        };
-        let message = format!(
-            "sections chosen for {}{limit}: {}{found}{missed}",
-            wanted.join(", "),
-            self.name
-        );
-        if self.is_met {
-            message.into()
-        } else {
-            Note::warning(codes::RESOLUTION, message)
-        }
-    }
-}
 
 /// Returns the scene with explicit sections in place of `Adaptive`.
 ///
@@ -242,7 +173,7 @@ impl<'a> Choice<'a> {
     }
 
     fn errors(&self, measurer: &Measurer, (values, found): (&Values, &Values)) -> Vec<f64> {
-        let all = errors(measurer, values, found);
+        let all = measurer.errors(values, found);
         let of_wanted = |measure: &Measure| {
             let items = measurer.items.iter().zip(&all);
             let of = items.filter(|(item, _)| item.measure == *measure);

@@ -2,27 +2,22 @@
 
 use super::branches::{self, Branch, OtherState};
 use super::ladder::{self, Proposal};
-use super::measure::{Measurer, Values};
+use super::measure::Values;
 use super::reference::Setup;
+use super::resolution::{DRAWN, drawn, with_records_of};
 use super::run::{Limits, RunResult, TrialFailure};
 use super::sample::{SEEDS, Sample};
-use super::{Candidate, Options, Reference, Trade, TradeCallbacks, TradeError, worst};
+use super::{Candidate, Options, Reference, SETTLED, Trade, TradeCallbacks, TradeError, worst};
 use crate::Counts;
-use crate::scene::{Anchors, Scene, SceneProblem, Setting, Task};
+use crate::scene::{Scene, SceneProblem, Setting};
 use crate::shape::Ribbon;
 use std::cell::{Cell, OnceCell};
 
 /// Prefix of the name of the candidate with every monomer at the default step.
 pub(super) const USUAL: &str = "every monomer, default step";
 
-/// Largest error of the reference itself, as a fraction of the wanted error.
-pub(super) const SETTLED: f64 = 1.0 / 3.0;
-
 /// Largest relative scatter of a compared item between filaments with sampled bonds.
 const MOST_SCATTER: f64 = 0.4;
-
-/// Sampled bonds per interface, and number of filaments with sampled bonds.
-const DRAWN: (usize, u64) = (64, 3);
 
 /// Runs the reference and the candidates of a scene.
 ///
@@ -195,7 +190,7 @@ impl<'a> Study<'a> {
     }
 
     fn errors(&self, values: &Values) -> Vec<Option<f64>> {
-        errors(&self.setup.measurer, &self.values, values)
+        self.setup.measurer.errors(&self.values, values)
     }
 
     fn resolutions(&self, written: &Scene) -> Vec<Proposal> {
@@ -363,7 +358,7 @@ impl<'a> Study<'a> {
                 };
                 let what = format!("{} at {share} of the loads", candidate.name);
                 let error = self.run(&what, &scene).map_or(f64::INFINITY, |sample| {
-                    worst(&errors(&self.setup.measurer, &reference, &sample.values))
+                    worst(&self.setup.measurer.errors(&reference, &sample.values))
                 });
                 self.candidates[i].at_loads.push((share, error));
             }
@@ -454,42 +449,9 @@ impl<'a> Study<'a> {
     }
 }
 
-pub(super) fn drawn(scene: &Scene, seed: u64) -> Scene {
-    let mut drawn = scene.clone();
-    for filament in drawn.filaments_mut() {
-        let monomers = &mut filament.monomers;
-        (monomers.anchors, monomers.seed) = (Anchors::Independent, seed);
-        (monomers.lateral_bonds, monomers.longitudinal_bonds) = (DRAWN.0, DRAWN.0);
-    }
-    drawn
-}
-
-pub(super) fn errors(measurer: &Measurer, reference: &Values, values: &Values) -> Vec<Option<f64>> {
-    let pairs = reference.iter().zip(values);
-    let items = measurer.items.iter().zip(pairs);
-    items.map(|(item, (a, b))| item.error(a, b)).collect()
-}
-
 fn retain<T>(all: &mut Vec<T>, kept: &[bool]) {
     let mut kept = kept.iter();
     all.retain(|_| kept.next().is_none_or(|kept| *kept));
-}
-
-/// Returns the scene with the record interval of the plan and without extra results of equilibria.
-pub(super) fn with_records_of(mut scene: Scene, planned: &Scene) -> Scene {
-    match (&mut scene.task, &planned.task) {
-        (Task::Dynamics(one), Task::Dynamics(other)) => one.record_every_ns = other.record_every_ns,
-        (Task::Brownian(one), Task::Brownian(other)) => one.record_every_ns = other.record_every_ns,
-        _ => {}
-    }
-    if let Task::Equilibrium(settings) = &mut scene.task {
-        (
-            settings.states,
-            settings.error_of,
-            settings.lowest_eigenvalue,
-        ) = (0, None, false);
-    }
-    scene
 }
 
 /// Returns the arc length of the largest curvature of each filament in the last record (nm).

@@ -1,7 +1,7 @@
 //! Invalid and extreme numbers in every field of a scene: NaN, infinities, overflow, subnormal numbers, zero and -1.
 
 use super::row::{Expected, Outcome, Row};
-use actin_sim::{Assembly, Plan, RunError, Scene, SceneError, SceneProblem, Trajectory};
+use actin_sim::{Plan, RunError, Scene, SceneError, SceneProblem, Trajectory};
 use std::ops::Range;
 
 const VALUES: [&str; 12] = [
@@ -92,7 +92,7 @@ pub(super) fn verdict(text: &str) -> Verdict {
         Err(error) => return Verdict::Refused(error),
     };
     let refused = |problem: &SceneProblem| Verdict::Refused(SceneError::locate(problem, text));
-    let assembly = match Assembly::build(&scene) {
+    let assembly = match actin_sim::build(&scene) {
         Ok(assembly) => assembly,
         Err(problem) => return refused(&problem),
     };

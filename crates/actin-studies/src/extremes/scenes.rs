@@ -95,7 +95,7 @@ pub(super) struct CompletedRun {
 
 pub(super) fn build(text: &str) -> Result<Assembly, Outcome> {
     let scene = Scene::from_ron(text).map_err(|error| Outcome::Refused(error.to_string()))?;
-    Assembly::build(&scene).map_err(|problem| refused(&problem, text))
+    actin_sim::build(&scene).map_err(|problem| refused(&problem, text))
 }
 
 pub(super) fn run(text: &str) -> Result<CompletedRun, Outcome> {

@@ -4,7 +4,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::path::Path;
 
 /// Each crate with the crates of the workspace that it may depend on.
-const ALLOWED: [(&str, &[&str]); 20] = [
+const ALLOWED: [(&str, &[&str]); 21] = [
     ("actin-mechanics", &[]),
     ("actin-ellipsoid", &["actin-mechanics"]),
     ("actin-cosserat", &["actin-mechanics"]),
@@ -28,9 +28,22 @@ const ALLOWED: [(&str, &[&str]); 20] = [
         ],
     ),
     (
+        "actin-assembly",
+        &[
+            "actin-mechanics",
+            "actin-scene",
+            "actin-ellipsoid",
+            "actin-cosserat",
+            "actin-coupling",
+            "actin-integrate",
+            "actin-brownian",
+        ],
+    ),
+    (
         "actin-sim",
         &[
             "actin-mechanics",
+            "actin-assembly",
             "actin-scene",
             "actin-ellipsoid",
             "actin-cosserat",

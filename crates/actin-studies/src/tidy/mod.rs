@@ -3,6 +3,8 @@
 #[cfg(test)]
 mod book;
 #[cfg(test)]
+mod circles;
+#[cfg(test)]
 mod commands;
 #[cfg(test)]
 mod dependencies;
@@ -54,6 +56,7 @@ mod tests {
     fn findings(root: &Path) -> Result<Vec<String>, String> {
         let sources = files(root, "rs")?;
         let mut all = dependencies::findings(root)?;
+        all.extend(circles::findings(root)?);
         all.extend(paths::findings(root)?);
         all.extend(book::findings(root)?);
         all.extend(commands::findings(root)?);

@@ -88,7 +88,7 @@ impl Run {
     /// # Errors
     /// If the scene cannot be built.
     pub fn initial(scene: &Scene) -> Result<Self, SceneProblem> {
-        let assembly = Assembly::build(scene)?;
+        let assembly = actin_sim::build(scene)?;
         Ok(Self {
             path: PathBuf::new(),
             at: vec![At::Path(0.0)],
@@ -236,5 +236,5 @@ fn assembly(path: &Path) -> Result<Assembly, ViewError> {
     };
     let text = fs::read_to_string(&file).map_err(|error| refused(format!(" {error}")))?;
     let scene = Scene::from_ron(&text).map_err(|error| refused(error.to_string()))?;
-    Assembly::build(&scene).map_err(|problem| refused(format!(" {problem}")))
+    actin_sim::build(&scene).map_err(|problem| refused(format!(" {problem}")))
 }

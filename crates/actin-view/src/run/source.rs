@@ -187,7 +187,7 @@ fn curves_of(assembly: &Assembly, rows: &[Row]) -> Vec<Curve> {
     ]
     .map(str::to_owned)
     .into();
-    names.extend(assembly.observed_columns().iter().cloned());
+    names.extend(actin_sim::observed_columns(assembly));
     let numbers = |row: &Row| {
         let first = [
             row.at.value(),

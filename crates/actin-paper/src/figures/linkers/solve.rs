@@ -1,7 +1,7 @@
 //! Equilibria from several starts, and damped motion of a case.
 
 use super::Case;
-use crate::figures::centre_line::CentreLine;
+use crate::centre_line::CentreLine;
 use crate::run::{Shape, SolvedScene};
 use actin_mechanics::State;
 use actin_sim::{Assembly, Equilibrium, Part, Scene, Task};

@@ -3,8 +3,8 @@
 use super::ensemble::{Ensemble, Kind, StabilityCounts, core, ensemble, turn_deg, value};
 use super::lengths;
 use crate::figures::charts::{dots, line};
-use crate::figures::draft::{Column, Draft, MeasuredRow, number};
-use crate::figures::expected::{Bound, DIFFERENCE};
+use crate::figures::draft::{Column, Draft, number};
+use crate::figures::expected::{Bound, DIFFERENCE, MeasuredRow};
 use crate::fit::TwistData;
 use crate::measure::TwistPoint;
 use crate::palette;

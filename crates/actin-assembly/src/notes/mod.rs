@@ -1,0 +1,347 @@
+//! Notes and warnings on the validity and accuracy of results.
+//!
+//! `actin check` and `actin run` print them. In `summary.json`, `notes` has the texts of all and
+//! `warnings` the warnings with their codes. Notes known before a run are in [`Assembly::notes`]
+//! and `Plan::notes` of `actin-sim`; the summary adds those of the run.
+
+pub mod codes;
+mod laws;
+mod mesh;
+
+use crate::scene::{
+    AdaptiveResolution, Anchors, Monomers, Observable, RodLaw, Scene, Task, unset_loads,
+};
+use crate::{Assembly, InterfaceSampling, Rod, SectionChoice};
+use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::fmt;
+
+/// Note on a scene or a run; a warning if it has a code.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Note {
+    /// Code of a warning, one of `codes`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub code: Option<Cow<'static, str>>,
+    /// One or two sentences.
+    pub message: String,
+}
+
+impl Note {
+    /// Creates a warning with one of the `codes`.
+    pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
+        Self {
+            code: Some(code.into()),
+            message: message.into(),
+        }
+    }
+
+    /// Creates a warning with one of the `codes` from each message.
+    pub fn warnings(
+        code: &'static str,
+        messages: impl IntoIterator<Item = String>,
+    ) -> impl Iterator<Item = Self> {
+        let messages = messages.into_iter();
+        messages.map(move |message| Self::warning(code, message))
+    }
+}
+
+impl From<String> for Note {
+    fn from(message: String) -> Self {
+        Self {
+            code: None,
+            message,
+        }
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.code {
+            None => write!(f, "note: {}", self.message),
+            Some(code) => write!(f, "warning: {} [{code}]", self.message),
+        }
+    }
+}
+
+/// Length (nm) below which the direction of a transverse load on a rod under `Homogenised` matters.
+///
+/// # Source
+/// `cargo xtask load-cases --ends`: monomers 60 nm long are within 11 % of their mean over
+/// azimuths.
+const SHORTEST_NM: f64 = 60.0;
+
+/// Largest relative error of the stiffness of one interface without a warning. For a filament the
+/// error is divided by the root of the number of interfaces.
+const UNSURE: f64 = 0.1;
+
+impl Assembly {
+    /// Note on rod cells with more segments than necessary, which limit the time step.
+    fn note_on_short_segments(&self, following: &AdaptiveResolution) -> Option<String> {
+        let segments = following.segments;
+        let Task::Brownian(motion) = &self.scene.task else {
+            return None;
+        };
+        let is_bound = motion.time_step_ns.is_none() && motion.thermal().is_some();
+        (is_bound && segments > 1).then(|| {
+            format!(
+                "cells of rod have {segments} segments, which limit the time step: with `segments: 1` in `Following` the time step \
+                 may be up to {:.0} times longer",
+                (segments as f64).powi(4)
+            )
+        })
+    }
+
+    /// Returns the notes on this scene before its run.
+    pub fn notes(&self) -> Vec<Note> {
+        let mut notes: Vec<Note> = self.chosen.iter().map(SectionChoice::note).collect();
+        if let Some(following) = self.scene.filament.sections.following() {
+            let note = "sections follow the motion: numbers of bodies, time step and cost apply to the rods at its start";
+            notes.push(note.to_owned().into());
+            notes.extend(self.note_on_short_segments(following).map(Note::from));
+        }
+        for filament in self.scene.filaments() {
+            let sections = filament.sections.iter().filter(|s| !s.is_rod());
+            for section in sections {
+                let monomers = section.monomers(&filament.monomers);
+                let few = InterfaceKind::ALL.map(|kind| few_bonds(&monomers, kind));
+                notes.extend(Note::warnings(codes::FEW_BONDS, few.into_iter().flatten()));
+            }
+        }
+        notes.extend(Note::warnings(
+            codes::PATH_LOADS,
+            loads_along_path(&self.scene),
+        ));
+        notes.extend(Note::warnings(codes::SHORT_ROD, self.short_rods()));
+        notes.extend(Note::warnings(codes::LONG_SEGMENTS, self.long_segments()));
+        notes.extend(Note::warnings(codes::OVERLAP, self.notes_on_repulsion()));
+        notes.extend(Note::warnings(
+            codes::ROD_LAW,
+            self.short_segments_in_water(),
+        ));
+        let bath_k = self.scene.thermal().map(|thermal| thermal.temperature_k);
+        for filament in self.scene.filaments() {
+            let of_laws = laws::notes(filament, bath_k);
+            notes.extend(Note::warnings(codes::ROD_LAW, of_laws));
+        }
+        let untold = self.untold_lengths();
+        notes.extend(Note::warnings(codes::PERSISTENCE_LENGTH, untold));
+        notes.extend(self.sampled.iter().map(InterfaceSampling::note));
+        let mut unique = Vec::new();
+        for note in notes {
+            if !unique.contains(&note) {
+                unique.push(note);
+            }
+        }
+        unique
+    }
+
+    /// Warnings on tangent correlations from which no persistence length can be computed.
+    fn untold_lengths(&self) -> Vec<String> {
+        let observed =
+            (self.scene.observe.iter().enumerate()).filter(|_| self.scene.thermal().is_some());
+        let untold = observed.filter_map(|(i, observable)| {
+            let Observable::TangentCorrelation { filament, .. } = *observable else {
+                return None;
+            };
+            let reason = self.scene.nonthermal_bending_cause(filament)?;
+            Some(format!(
+                "observe[{i}]: no persistence length of filament {filament} is computed: {reason}, so that its \
+                 bending is not due to heat alone"
+            ))
+        });
+        untold.collect()
+    }
+
+    fn law_of(&self, rod: &Rod) -> Option<RodLaw> {
+        let filament = self.filament_of_section(rod.section);
+        let written = self.scene.filament_at(filament)?;
+        let i = rod.section - self.filaments[filament].sections.start;
+        Some(written.sections[i].rod_model(&written.rod).law)
+    }
+
+    fn short_rods(&self) -> Option<String> {
+        let under_law =
+            |rod: &&Rod| (self.law_of(rod)).is_some_and(|law| RodLaw::is_homogenised(&law));
+        let lengths = self.rods.iter().filter(under_law);
+        let shortest = lengths
+            .map(|rod| rod.layout.length())
+            .min_by(f64::total_cmp)?;
+        (shortest < SHORTEST_NM).then(|| {
+            format!(
+                "a rod of {shortest:.1} nm with the law Homogenised: its bending is isotropic, but the compliance of \
+                 monomers between walls 60, 41, 30, 25 nm apart depends on the direction by up to 10, 25, 50, 55 % of the \
+                 mean. A rod meets the mean to 3 % for 41 nm and more, 4 % at 30 nm, 7 % at 25 nm"
+            )
+        })
+    }
+}
+
+impl SectionChoice {
+    /// Returns the choice and its errors as a note, or as a warning if the wanted errors are not met.
+    fn note(&self) -> Note {
+        let wanted = self.wanted.iter();
+        let wanted: Vec<String> = wanted
+            .map(|(what, error)| format!("{what} within {} %", 100.0 * error))
+            .collect();
+        let limit = self
+            .most_monomers
+            .map_or_else(String::new, |most| format!(" with at most {most} monomers"));
+        let found = if self.errors.is_empty() {
+            "; the all-monomer equilibrium is the reference, so no comparison was run".to_owned()
+        } else {
+            let errors = self.errors.iter().map(|e| format!("{:.2} %", 100.0 * e));
+            let errors: Vec<String> = errors.collect();
+            let part = if self.share < 1.0 {
+                format!(" in the first {:.0} % of the motion", 100.0 * self.share)
+            } else {
+                String::new()
+            };
+            format!(
+                "; the error relative to the all-monomer model is {}{part}",
+                errors.join(", ")
+            )
+        };
+        let missed = if self.is_met {
+            ""
+        } else {
+            ". The requested errors are not reached with at most this number of monomers: this resolution has \
+             the smallest error of those compared. Increase `monomers` or `error`"
+        };
+        let message = format!(
+            "sections chosen for {}{limit}: {}{found}{missed}",
+            wanted.join(", "),
+            self.name
+        );
+        if self.is_met {
+            message.into()
+        } else {
+            Note::warning(codes::RESOLUTION, message)
+        }
+    }
+}
+
+impl InterfaceSampling {
+    fn note(&self) -> Note {
+        let Self { monomers, error } = self;
+        let is_unsure = *error > UNSURE;
+        let more = if is_unsure {
+            ": sample longer (task.interfaces.sampled_ns)"
+        } else {
+            ""
+        };
+        let message = format!(
+            "{monomers} monomers with quasi-harmonic interfaces: the stiffness of each interface has an error of {:.1} %{more}. \
+             It was sampled without loads: shear does not stiffen under tension",
+            100.0 * error
+        );
+        if is_unsure {
+            Note::warning(codes::SAMPLED_INTERFACES, message)
+        } else {
+            message.into()
+        }
+    }
+}
+
+fn loads_along_path(scene: &Scene) -> Option<String> {
+    let unset = unset_loads(scene);
+    let first = unset.first()?;
+    let which = match unset.len() {
+        1 => format!("loads[{first}] acts"),
+        2 => format!("loads[{first}] and loads[{}] act", unset[1]),
+        more => format!("{more} loads from loads[{first}] on act"),
+    };
+    Some(format!(
+        "{which} in full from the start of the path, which sets no loads. To raise a load along the path, add \
+         LoadFactor(load: {first}, factor: 1.0) to a stage"
+    ))
+}
+
+fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
+    if monomers.anchors != Anchors::Cubature {
+        return None;
+    }
+    let parameters = EllipsoidParameters::from(monomers);
+    let found = Cubature::for_interface(&parameters, kind).ok()?;
+    let MomentCheck { residual, .. } = found.certificate;
+    (!found.certificate.meets_moments()).then(|| {
+        format!(
+            "{} quadrature bonds for a {kind} interface are too few: a moment has an error of \
+             {:.0} % of its root mean square. Eight bonds make twist a quarter too soft, four much softer \
+             (docs/decisions.md). Use 12, which meet all moments, or anchors: Independent for sampled bonds",
+            found.points.len(),
+            100.0 * residual
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn codes_are_documented() {
+        let page = include_str!("../../../../docs/reference/troubleshooting.md");
+        for (i, code) in codes::ALL.iter().enumerate() {
+            assert!(page.contains(&format!("| `{code}` |")), "{code}");
+            assert!(!codes::ALL[..i].contains(code), "{code}");
+        }
+    }
+
+    pub(super) fn notes(filaments: &str, task: &str) -> Vec<String> {
+        let text =
+            format!("Scene(filaments: [{filaments}], task: Dynamics(duration_ns: 1.0, {task}))");
+        let scene = Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"));
+        let notes = Assembly::build(&scene).unwrap().notes();
+        notes.into_iter().map(|note| note.message).collect()
+    }
+
+    #[test]
+    fn few_weighted_bonds_are_noted() {
+        let monomers = |model: &str| {
+            format!(
+                "Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0)],
+                    monomers: Monomers({model})),
+                 Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0)],
+                    monomers: Monomers({model}), at_nm: (20.0, 0.0, 0.0)),"
+            )
+        };
+        let found = notes(&monomers("lateral_bonds: 8, longitudinal_bonds: 8"), "");
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!(found[0].starts_with("8 quadrature bonds for a lateral interface"));
+        assert_eq!(notes(&monomers(""), ""), [""; 0]);
+        let drawn = "anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8";
+        assert_eq!(notes(&monomers(drawn), ""), [""; 0]);
+    }
+
+    #[test]
+    fn few_weighted_bonds_of_a_section_are_noted() {
+        let filament = "Filament(sections: [
+            Ellipsoids(from_nm: 0.0, to_nm: 12.0),
+            Ellipsoids(from_nm: 12.0, to_nm: 24.0, altered: (lateral_bonds: 8)),
+        ])";
+        let found = notes(filament, "");
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].starts_with("8 quadrature bonds for a lateral interface"));
+    }
+
+    #[test]
+    fn short_rods_are_noted() {
+        let rods = |law: &str, lengths: [f64; 2]| {
+            let rod = |k: usize| {
+                let (to, x) = (lengths[k], 20.0 * k as f64);
+                format!(
+                    "Filament(sections: [Rod(from_nm: 0.0, to_nm: {to:?})], rod: RodModel(law: {law}),
+                        at_nm: ({x:?}, 0.0, 0.0)),"
+                )
+            };
+            notes(&[rod(0), rod(1)].concat(), "")
+        };
+        let found = rods("Homogenised", [40.0, 25.0]);
+        assert_eq!(found.len(), 1);
+        assert!(found[0].starts_with("a rod of 25.0 nm with the law Homogenised"));
+        assert_eq!(rods("Homogenised", [61.0, 100.0]), [""; 0]);
+        assert_eq!(rods("Fitted", [40.0, 25.0]), [""; 0]);
+    }
+}
