@@ -41,7 +41,7 @@ fn traded(text: &str, change: impl FnOnce(&mut Options)) -> Trade {
 }
 
 fn tip(scene: &Scene) -> [f64; 3] {
-    let assembly = Assembly::build(scene).unwrap();
+    let assembly = actin_sim::build(scene).unwrap();
     let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
     let state = &trajectory.records.last().unwrap().state;
     let moved = assembly.tip_nm(state, End::End) - assembly.tip_nm(&assembly.rest, End::End);
@@ -127,7 +127,7 @@ fn candidates_of_motions_include_longer_steps() {
             .all(|error| error.unwrap() < 1e-4)
     );
     let records = |scene: &Scene| {
-        let assembly = Assembly::build(scene).unwrap();
+        let assembly = actin_sim::build(scene).unwrap();
         Plan::new(&assembly)
             .unwrap()
             .estimate()
@@ -164,7 +164,7 @@ fn undetermined_directions_are_left_out() {
 fn chosen(sections: &str, scene: &str) -> Assembly {
     let written = "sections: [Rod(from_nm: 0.0, to_nm: 108.0)]";
     let scene = scene.replace(written, &format!("sections: {sections}"));
-    Assembly::build(&Scene::from_ron(&scene).unwrap()).unwrap()
+    actin_sim::build(&Scene::from_ron(&scene).unwrap()).unwrap()
 }
 
 /// Without a limit of monomers every monomer is resolved. With too small a limit the resolution

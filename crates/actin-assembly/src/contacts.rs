@@ -18,6 +18,9 @@ impl Assembly {
 
     /// Upper bound of the largest frequency (rad/ns) including contact. The largest eigenvalue of a
     /// sum of stiffnesses is at most the sum of the largest eigenvalues.
+    ///
+    /// # Errors
+    /// If the stiffness of contacts has no largest frequency.
     pub fn with_contact(&self, frequency: f64) -> Result<f64, SceneProblem> {
         let Some(repelled) = &self.repelled else {
             return Ok(frequency);

@@ -62,7 +62,7 @@ pub use extrapolation::MeasuredError;
 pub use kinetics::{COARSEST, Kinetics, LinkerEvent, LinkerEventKind, Log};
 pub use model_limits::{ModelLimitExceeded, worst};
 pub use models::ellipsoids;
-pub use notes::{Note, codes};
+pub use notes::Note;
 pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
 };

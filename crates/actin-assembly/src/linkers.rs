@@ -47,6 +47,9 @@ impl Assembly {
     }
 
     /// Refuses rates of linkers that are too fast for a time step (ns).
+    ///
+    /// # Errors
+    /// Names the linker and the rate.
     pub fn check_rates(&self, step_ns: f64) -> Result<(), SceneProblem> {
         for (i, linker) in self.scene.linkers.iter().enumerate() {
             let rates = linker.kinetics.iter().flat_map(Rates::rates);

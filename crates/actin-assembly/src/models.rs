@@ -9,6 +9,9 @@ use actin_ellipsoid::{
 
 /// The monomers' model of filament `index`, whose bonds are sampled independently of those of
 /// other filaments; what it refuses is named by the scene's keys.
+///
+/// # Errors
+/// If a parameter is invalid; names it.
 pub fn ellipsoids(monomers: &Monomers, index: usize) -> Result<EllipsoidModel, SceneProblem> {
     let parameters = EllipsoidParameters {
         sampling: index as u64,

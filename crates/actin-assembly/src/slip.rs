@@ -12,6 +12,9 @@ impl Assembly {
     /// The curvature of a joint is the logarithm of its rotation, with angles up to pi. Beyond pi a
     /// driven joint slips by a whole turn and its torque changes sign. The check assumes uniform
     /// twist at the end of each stage; shocks can slip earlier.
+    ///
+    /// # Errors
+    /// Names the setting that twists too far.
     pub fn check_slip(&self) -> Result<(), SceneProblem> {
         (0..self.filaments.len()).try_for_each(|filament| self.check_slip_of(filament))
     }

@@ -1,4 +1,8 @@
 //! Sums of vectors with factors.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code must be compiled into the function that enables the instructions"
+)]
 
 use crate::Vectors;
 use crate::wide::{self, Simd, WithSimd};

@@ -1,8 +1,4 @@
 //! Arrays of vectors, stored by component.
-#![allow(
-    clippy::inline_always,
-    reason = "vector code must be compiled into the function that enables the instructions"
-)]
 
 use crate::Vector3;
 

@@ -35,9 +35,9 @@ pub mod path;
 mod periodic;
 mod place;
 mod position;
-mod print;
 mod problem;
 mod read;
+mod report;
 mod repulsion;
 mod rules;
 mod saddles;
@@ -59,7 +59,6 @@ mod trace;
 mod tree;
 mod types;
 mod validate;
-mod yaml;
 
 pub use actin_cosserat::{
     CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist,
@@ -91,7 +90,8 @@ pub use observable::{Observable, Output, Point};
 pub use periodic::PeriodicBox;
 pub use place::ClampedEnds;
 pub use problem::{SceneError, SceneProblem};
-pub use read::{ParseReport, read_all, read_ron, to_ron};
+pub use read::{read_all, read_ron, to_ron};
+pub use report::ParseReport;
 pub use repulsion::{Cuboid, Cylinder, Plane, Repulsion, Sphere, WallName};
 #[cfg(feature = "schema")]
 pub use schema::schema;

@@ -1,8 +1,10 @@
 //! Parser of RON and JSON, and choice of the format. It continues after a mistake and finds further ones.
 
+mod yaml;
+
 use super::position::without_mark;
 use super::tree::{Kind, SceneValue, Source, TextSpan};
-use super::yaml::{is_yaml, parse_yaml};
+use yaml::{is_yaml, parse_yaml};
 
 /// Largest depth of brackets.
 pub(super) const MOST_DEPTH: usize = 128;

@@ -1,6 +1,5 @@
 //! Errors of scenes and their positions.
 
-use super::SceneText;
 use std::borrow::Cow;
 use std::fmt;
 
@@ -88,11 +87,6 @@ impl SceneError {
             suggestion: None,
             message: cut(&message, LONGEST_MESSAGE).into_owned(),
         }
-    }
-
-    /// Locates a problem in the text of its scene: at its key, or at the innermost written parent.
-    pub fn locate(problem: &SceneProblem, text: &str) -> Self {
-        SceneText::new(text).locate(problem)
     }
 }
 

@@ -1,15 +1,15 @@
 //! Conversion of scenes from and to text and values.
 
+use super::ParseReport;
 use super::deserialize::deserialize;
 use super::position::{line_and_column, without_mark};
-use super::print::print;
+use super::text::SCENE_DEPTH;
+use super::tree::print;
 use super::{RodLaw, RodLaws, Scene, SceneError, SceneProblem, SceneText, SceneValue};
 use super::{scene_file::SceneFile, serialize, trace, validate::validate};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::Path;
-
-pub(super) const SCENE_DEPTH: usize = 6;
 
 impl RodLaws {
     /// Returns the laws as RON, as written after `law:` in a scene.
@@ -111,29 +111,17 @@ pub fn read_ron<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, SceneE
     SceneText::named(text, name).readings().into_result()
 }
 
-/// Value of a text, and all mistakes in it.
-#[derive(Clone, Debug)]
-pub struct ParseReport<T> {
-    /// Value without unknown keys; `None` if it cannot be determined.
-    pub value: Option<T>,
-    /// Independent mistakes in the order of the text.
-    pub mistakes: Vec<SceneError>,
-}
-
-impl<T> ParseReport<T> {
-    pub(super) fn into_result(self) -> Result<T, SceneError> {
-        match (self.value, self.mistakes.into_iter().next()) {
-            (Some(value), None) => Ok(value),
-            (_, Some(mistake)) => Err(mistake),
-            (None, None) => unreachable!("a text without a value has a mistake"),
-        }
-    }
-}
-
 /// Reads a structure like [`read_ron`], and returns up to 20 mistakes instead of only the first. Texts longer
 /// than 100 kB have fewer.
 pub fn read_all<T: DeserializeOwned>(text: &str, name: &str) -> ParseReport<T> {
     SceneText::named(text, name).readings()
+}
+
+impl SceneError {
+    /// Locates a problem in the text of its scene: at its key, or at the innermost written parent.
+    pub fn locate(problem: &SceneProblem, text: &str) -> Self {
+        SceneText::new(text).locate(problem)
+    }
 }
 
 #[cfg(test)]

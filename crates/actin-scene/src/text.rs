@@ -3,9 +3,7 @@
 use super::deserialize::{DeserializeError, deserialize};
 use super::parse::{Parsed, parse, word};
 use super::position::{line_and_column, place, without_mark};
-use super::print::print;
-use super::read::SCENE_DEPTH;
-use super::tree::{Kind, SceneValue, Source};
+use super::tree::{Kind, SceneValue, Source, print};
 use super::{ParseReport, Scene, SceneError, SceneProblem, brackets, trace, validate};
 use super::{scene_file::SceneFile, validate::validate};
 use serde::de::DeserializeOwned;
@@ -14,6 +12,9 @@ use std::fmt;
 use std::ops::Range;
 use std::path::Path;
 use std::str::FromStr;
+
+/// Depth up to which structures of a printed scene have one line for each key.
+pub(super) const SCENE_DEPTH: usize = 6;
 
 const MOST: usize = 20;
 

@@ -1,5 +1,9 @@
 //! Tree of values of texts and dictionaries, with the position of each value.
 
+mod print;
+
+pub(super) use print::print;
+
 use super::SceneProblem;
 use std::fmt;
 use std::ops::Range;
@@ -387,6 +391,6 @@ impl Kind {
 /// Formats the value as RON on one line.
 impl fmt::Display for SceneValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&super::print::print(self, 0))
+        f.write_str(&print(self, 0))
     }
 }

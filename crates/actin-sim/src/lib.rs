@@ -15,6 +15,7 @@
 struct Readme;
 
 mod build;
+mod codes;
 mod cost;
 mod ensemble;
 mod error;

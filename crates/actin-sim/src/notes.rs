@@ -1,9 +1,10 @@
 //! Notes on the results of a run: unknown errors and states.
 
+use crate::codes;
 use crate::scene::Task;
 use crate::shape;
 use crate::{Assembly, Outcome, Record};
-use actin_assembly::{Note, codes};
+use actin_assembly::Note;
 
 /// Largest energy error without a warning, over the energy exchanged by a motion.
 const LEDGER_OPEN: f64 = 0.01;

@@ -4,7 +4,7 @@
 //! `warnings` the warnings with their codes. Notes known before a run are in [`Assembly::notes`]
 //! and `Plan::notes` of `actin-sim`; the summary adds those of the run.
 
-pub mod codes;
+mod codes;
 mod laws;
 mod mesh;
 
@@ -20,7 +20,7 @@ use std::fmt;
 /// Note on a scene or a run; a warning if it has a code.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Note {
-    /// Code of a warning, one of `codes`.
+    /// Stable code of a warning, for use by other programs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub code: Option<Cow<'static, str>>,
     /// One or two sentences.
@@ -28,7 +28,7 @@ pub struct Note {
 }
 
 impl Note {
-    /// Creates a warning with one of the `codes`.
+    /// Creates a warning with a code.
     pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
         Self {
             code: Some(code.into()),
@@ -36,7 +36,7 @@ impl Note {
         }
     }
 
-    /// Creates a warning with one of the `codes` from each message.
+    /// Creates a warning with a code from each message.
     pub fn warnings(
         code: &'static str,
         messages: impl IntoIterator<Item = String>,

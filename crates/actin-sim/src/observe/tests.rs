@@ -94,7 +94,7 @@ fn columns_belong_together() {
     let (record, summary) = recorded(&assembly);
     let columns = observed_columns(&assembly);
     assert_eq!(record.observed.len(), columns.len());
-    let mut names = columns.to_vec();
+    let mut names = columns.clone();
     names.sort();
     names.dedup();
     assert_eq!(names.len(), columns.len());

@@ -1,8 +1,9 @@
 //! Number of time steps of a motion and between its records.
 
 use super::{Estimate, composition};
+use crate::codes;
 use crate::scene::{Dynamics, Scene, SceneProblem, Task};
-use actin_assembly::{Note, codes};
+use actin_assembly::Note;
 use actin_integrate::Drag;
 
 const DEFAULT_RECORDS: f64 = 100.0;

@@ -1,7 +1,8 @@
 //! Warnings that follow from other keys of the summary.
 
 use super::{Status, Summary};
-use actin_assembly::{Note, codes};
+use crate::codes;
+use actin_assembly::Note;
 
 const DERIVED: [&str; 7] = [
     codes::LAW_RANGE,

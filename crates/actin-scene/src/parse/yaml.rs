@@ -1,7 +1,7 @@
 //! Parser of YAML: the values of JSON in the notation of YAML 1.2, without anchors.
 
-use super::parse::{Brackets, MOST_DEPTH, Parsed, begins_with_key, number, number_kind};
-use super::tree::{Kind, SceneValue, Source, TextSpan};
+use super::{Brackets, MOST_DEPTH, Parsed, begins_with_key, number, number_kind};
+use crate::tree::{Kind, SceneValue, Source, TextSpan};
 use saphyr_parser::{Event, Parser, ScalarStyle, ScanError, Span, StrInput};
 
 /// Returns `true` if a text begins with a key as YAML does. A line of RON ends with a comma or a bracket.

@@ -1,10 +1,10 @@
 //! Output of values as RON.
 
-use super::tree::{Kind, SceneValue};
+use super::{Kind, SceneValue};
 use std::fmt::Write as _;
 
 /// Value as RON. Structures at a depth below `depth` have one line for each key.
-pub(super) fn print(value: &SceneValue, depth: usize) -> String {
+pub(crate) fn print(value: &SceneValue, depth: usize) -> String {
     let mut printer = Printer {
         text: String::new(),
         depth,
