@@ -5,6 +5,7 @@ mod chromium;
 
 use crate::common::{Workplace, assert_has};
 use chromium::{Mode, browser, count, probed};
+use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
@@ -66,11 +67,12 @@ fn pages_work_in_a_browser() {
     let Some(browser) = browser() else {
         return;
     };
-    for (scene, mode) in [
+    let pages = [
         (MOTION, Mode::Light),
         (PATH, Mode::Dark),
         (PAIR, Mode::Light),
-    ] {
+    ];
+    pages.into_par_iter().for_each(|(scene, mode)| {
         let place = ran(scene);
         let page = page(&place);
         let folder = tempfile::tempdir().unwrap();
@@ -80,7 +82,7 @@ fn pages_work_in_a_browser() {
             assert_works(found, width);
             assert_eq!(found["remarks"], json!(warnings));
         }
-    }
+    });
 }
 
 fn warnings(place: &Workplace) -> Vec<String> {

@@ -6,6 +6,7 @@
 mod chromium;
 
 use chromium::{Mode, browser, count};
+use rayon::prelude::*;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -23,8 +24,8 @@ pub(in crate::figures) fn assert_page_works(folder: &Path) {
         return;
     };
     let page = fs::read_to_string(folder.join("report.html")).unwrap();
-    let scratch = tempfile::tempdir().unwrap();
-    for mode in [Mode::Light, Mode::Dark] {
+    [Mode::Light, Mode::Dark].into_par_iter().for_each(|mode| {
+        let scratch = tempfile::tempdir().unwrap();
         let found = probed(&browser, &page, mode, scratch.path());
         for (width, found) in WIDTHS.iter().zip(&found) {
             assert_works(found, mode, *width);
@@ -33,7 +34,7 @@ pub(in crate::figures) fn assert_page_works(folder: &Path) {
             let views = page.matches("<figure class=\"viewer\"><script").count();
             assert_eq!([number("pictures"), number("views")], [pictures, views]);
         }
-    }
+    });
 }
 
 fn assert_works(found: &Value, mode: Mode, width: u32) {
