@@ -76,7 +76,8 @@ fn record(out: &Path, id: &str) -> serde_json::Value {
     record
 }
 
-/// Asserts agreement with `docs/report-quick.json` and, for shared numbers, with `docs/report.json`.
+/// Asserts agreement with `docs/report-quick.json` and, for shared numbers, with `docs/report.json`, and that the page
+/// works. The page does not depend on the instruction set, so that runs with another one than the default omit it.
 fn assert_current(out: &Path) {
     let rows = report::read(&out.join("report.json")).unwrap();
     let stale = crate::committed::stale(&rows).unwrap();
@@ -86,6 +87,9 @@ fn assert_current(out: &Path) {
         stale.len(),
         stale.join("\n")
     );
+    if std::env::var_os("ACTIN_SIMD").is_none() {
+        assert_page_works(out);
+    }
 }
 
 #[test]
@@ -94,7 +98,6 @@ fn committed_numbers_are_reproduced() {
     let rest: Vec<&str> = ids.into_iter().filter(|id| !CHEAP.contains(id)).collect();
     let folder = run(&rest, 2);
     assert_current(folder.path());
-    assert_page_works(folder.path());
 }
 
 /// Compares processes with one and two threads. Guards against unordered results, unordered sums, unseeded random
@@ -103,7 +106,6 @@ fn committed_numbers_are_reproduced() {
 fn results_are_independent_of_threads() {
     let first = run(&CHEAP, 1);
     assert_current(first.path());
-    assert_page_works(first.path());
     let expected = files(first.path());
     let count = |kind: &str| expected.keys().filter(|name| name.ends_with(kind)).count();
     assert!(expected.contains_key("report.json"));
