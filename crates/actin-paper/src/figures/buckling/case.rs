@@ -37,6 +37,8 @@ pub(super) struct Case {
     pub turn_deg: i32,
     pub seed: u64,
     pub start: Start,
+    /// True for turns with all starts, whose rows include the other stable states.
+    pub is_started: bool,
 }
 
 impl PartialEq for Case {
@@ -115,12 +117,13 @@ impl Case {
         f64::from(self.turn_deg.signum())
     }
 
-    /// True if other stable states are searched: first sampling of filaments in the pictures, and filaments without rod
-    /// in Figure 8 only.
+    /// True if other stable states are searched: first sampling of filaments in the pictures at turns with all starts,
+    /// and filaments without rod in Figure 8 only.
     fn has_states(&self) -> bool {
         let is_shown = self.model == self.figure.models[0];
         let is_new = self.resolution != Resolution::Ellipsoids || self.figure.id == "fig8";
-        is_shown && is_new && self.seed == 0 && self.start == Start::DEFAULT
+        let is_first = self.seed == 0 && self.start == Start::DEFAULT;
+        self.is_started && is_shown && is_new && is_first
     }
 
     pub(super) fn scene(&self) -> Result<Scene, String> {

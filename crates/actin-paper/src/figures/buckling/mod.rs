@@ -212,6 +212,7 @@ impl Plan {
             turn_deg,
             seed: if is_drawn { seed } else { 0 },
             start: Start::DEFAULT,
+            is_started: self.started.contains(&turn_deg),
         }
     }
 
