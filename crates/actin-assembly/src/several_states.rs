@@ -25,8 +25,8 @@ const TWISTS: [f64; 2] = [-0.028, -0.004];
 const CURVATURES: [f64; 2] = [0.45, 2.0];
 
 impl Assembly {
-    /// Warning on rods under a potential where monomers would have several states in `state`. In a heat bath
-    /// monomers change between the states, and there is no warning.
+    /// Warning on rods under a potential where monomers would have several states in `state`. `None` in a heat
+    /// bath, where monomers change between the states.
     pub fn note_on_several_states(&self, state: &State) -> Option<String> {
         if self.scene.thermal().is_some() {
             return None;
