@@ -161,10 +161,13 @@ fn undetermined_directions_are_left_out() {
     assert!(fine.error() < 0.15, "{:?}", fine.errors);
 }
 
-fn chosen(sections: &str, scene: &str) -> Assembly {
+fn with_sections(sections: &str, scene: &str) -> Scene {
     let written = "sections: [Rod(from_nm: 0.0, to_nm: 108.0)]";
-    let scene = scene.replace(written, &format!("sections: {sections}"));
-    actin_sim::build(&Scene::from_ron(&scene).unwrap()).unwrap()
+    Scene::from_ron(&scene.replace(written, &format!("sections: {sections}"))).unwrap()
+}
+
+fn chosen(sections: &str, scene: &str) -> Assembly {
+    actin_sim::build(&with_sections(sections, scene)).unwrap()
 }
 
 /// Without a limit of monomers every monomer is resolved. With too small a limit the resolution
@@ -192,6 +195,14 @@ fn sections_of_an_equilibrium_are_every_monomer_or_the_nearest() {
         "{}",
         note.message
     );
+}
+
+#[test]
+fn automatic_sections_are_refused_without_their_choice() {
+    let adaptive = "Adaptive(length_nm: 108.0, want: Tip(error: 0.05))";
+    let refused = Assembly::build(&with_sections(adaptive, SWINGING)).unwrap_err();
+    let expected = "filament.sections = Adaptive(..): must be chosen before the scene is built: use `actin_sim::build`";
+    assert_eq!(refused.to_string(), expected);
 }
 
 #[test]

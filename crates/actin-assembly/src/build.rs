@@ -53,10 +53,8 @@ impl Assembly {
     }
 
     fn resolve_and_build(scene: &Scene) -> Result<Self, SceneProblem> {
-        if let Some(filament) = (0..)
-            .zip(scene.filaments())
-            .find_map(|(i, filament)| filament.sections.adaptive().map(|_| i))
-        {
+        let mut filaments = scene.filaments();
+        if let Some(filament) = filaments.position(|one| one.sections.adaptive().is_some()) {
             let key = format!("{}.sections", scene.filament_key(filament));
             let rule = "must be chosen before the scene is built: use `actin_sim::build`";
             return Err(SceneProblem::new(key, "Adaptive(..)", rule));
