@@ -64,6 +64,7 @@ pub struct Assembly {
     pub build_s: f64,
     /// Estimated memory of the task without its records (bytes).
     pub bytes: f64,
+    pub(crate) is_started: bool,
 }
 
 impl Assembly {

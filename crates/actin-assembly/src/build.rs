@@ -231,6 +231,7 @@ impl<'a> Builder<'a> {
             sampled: self.sampled,
             spans,
             chosen: None,
+            is_started: false,
             build_s: 0.0,
         }
     }

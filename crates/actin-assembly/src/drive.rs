@@ -107,6 +107,19 @@ impl Drive {
         self.ends[clamp].turn.iter().flat_map(Values::ends)
     }
 
+    /// Makes the places of held bodies in `state` the origins of shifts and turns.
+    pub(crate) fn rebase(&mut self, clamps: &[Clamped], state: &State) {
+        for (end, clamp) in self.ends.iter_mut().zip(clamps) {
+            end.about = clamp.point_nm(state);
+            for (i, rest) in &mut end.points {
+                *rest = state.points.position.get(*i);
+            }
+            for (i, rest) in &mut end.frames {
+                *rest = state.frames.orientation.get(*i);
+            }
+        }
+    }
+
     /// Sets controls and held bodies to their values at path parameter `u`. A sliding end keeps its
     /// displacement along the sliding direction from `state`.
     pub fn place(&self, state: &mut State, u: f64) {

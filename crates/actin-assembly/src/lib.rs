@@ -42,6 +42,7 @@ mod rod;
 mod section_choice;
 mod several_states;
 mod slip;
+mod start;
 mod turned_ends;
 mod unstable_twist;
 

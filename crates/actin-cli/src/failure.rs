@@ -85,7 +85,7 @@ impl ParsedScene {
         // Standard input has no folder: paths are relative to the working directory.
         let beside = source.scene.parent();
         let folder = beside.filter(|_| !source.is_standard_input());
-        let read = text.read_points(folder.unwrap_or(Path::new("")));
+        let read = text.resolve_paths(folder.unwrap_or(Path::new("")));
         read.map_err(|error| Failure::Input(shown(&name, &text, &error)))?;
         let mut scene = text.scene().map_err(|first| all(&name, &text, first))?;
         if let Some(seed) = source.seed {
@@ -117,8 +117,8 @@ impl BuiltScene {
 
     pub(crate) fn open(source: &SceneArguments) -> Result<Self, Failure> {
         let ParsedScene { scene, text, name } = ParsedScene::new(source)?;
-        let assembly =
-            actin_sim::build(&scene).map_err(|problem| all(&name, &text, text.locate(&problem)))?;
+        let assembly = actin_rundir::build(&scene)
+            .map_err(|problem| all(&name, &text, text.locate(&problem)))?;
         Ok(Self {
             assembly,
             text,

@@ -3,8 +3,8 @@
 use crate::workspace_root;
 use actin_mechanics::State;
 use actin_sim::{
-    Assembly, Clamp, End, Equilibrium, Filament, FreeTranslation, Hold, Outcome, Output, Part,
-    Plan, Record, RunError, Scene, Task, Trajectory,
+    Assembly, Clamp, End, Equilibrium, Filament, FreeTranslation, Outcome, Part, Plan, Record,
+    RunError, Scene, Task, Trajectory,
 };
 use actin_view::Pose;
 
@@ -20,19 +20,7 @@ pub(crate) fn scenario(file: &str) -> Result<Scene, String> {
 pub(crate) fn free(title: &str, filament: Filament) -> Scene {
     Scene {
         title: title.to_owned(),
-        filament,
-        other_filaments: Vec::new(),
-        clamps: Vec::new(),
-        loads: Vec::new(),
-        linkers: Vec::new(),
-        beads: Vec::new(),
-        repulsion: None,
-        periodic: None,
-        path: Vec::new(),
-        observe: Vec::new(),
-        burn_in_ns: None,
-        output: Output::default(),
-        task: Task::Equilibrium(Equilibrium::default()),
+        ..Scene::new(filament, Task::Equilibrium(Equilibrium::default()))
     }
 }
 
@@ -47,11 +35,8 @@ pub(crate) fn run_to_end(assembly: &mut Assembly) -> Result<(Trajectory, Outcome
 
 pub(crate) fn clamp(end: End, slides: FreeTranslation) -> Clamp {
     Clamp {
-        filament: 0,
-        end,
-        hold: Hold::Wall,
-        hinge: None,
         slides,
+        ..Clamp::new(end)
     }
 }
 

@@ -56,7 +56,7 @@ impl Scene {
     fn of_text(py: Python<'_>, text: &str, file: String, folder: &Path) -> PyResult<Self> {
         let text = SceneText::new(text);
         let mut source = Source { text, file };
-        let read = source.text.read_points(folder);
+        let read = source.text.resolve_paths(folder);
         let inner = read.and_then(|()| source.text.scene());
         let inner = inner.map_err(|error| errors::mistakes(py, &source, error))?;
         Ok(Self {
@@ -84,7 +84,7 @@ impl Scene {
 
     /// Builds bodies and interactions.
     pub(crate) fn build(&self, py: Python<'_>) -> PyResult<Arc<Assembly>> {
-        let built = py.detach(|| actin_sim::build(&self.inner));
+        let built = py.detach(|| actin_rundir::build(&self.inner));
         built.map(Arc::new).map_err(|p| self.refuse(py, &p))
     }
 }

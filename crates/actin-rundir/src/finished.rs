@@ -2,6 +2,7 @@
 
 use crate::names::SCENE;
 use crate::{RunDirectory, RunDirectoryError, StateIter, StoredStates};
+use actin_sim::mechanics::State;
 use actin_sim::{Assembly, At, Scene};
 use std::fs;
 use std::ops::Range;
@@ -45,6 +46,19 @@ impl FinishedRun {
     /// Time or path position of each record.
     pub(crate) fn at(&self) -> &[At] {
         self.stored.at()
+    }
+
+    /// Reads the state of the last record.
+    ///
+    /// # Errors
+    /// An array is missing or has the wrong shape.
+    pub fn last_state(&self) -> Result<State, RunDirectoryError> {
+        let last = self.count().checked_sub(1);
+        let mut states = self.stored.states(&self.assembly, last)?;
+        // Runs have at least one record.
+        states
+            .next()
+            .unwrap_or_else(|| Ok(self.assembly.rest.clone()))
     }
 
     /// Reads the states of all records in order.

@@ -29,6 +29,7 @@
 struct Readme;
 
 mod atomic;
+mod build;
 mod checkpoint;
 mod damage;
 mod difference;
@@ -55,6 +56,7 @@ mod write;
 pub use actin_export::Format;
 pub use actin_sim as sim;
 pub use atomic::replace_file;
+pub use build::build;
 pub use checkpoint::{Checkpoints, Existing, OpenedRun};
 pub use damage::{CheckpointError, Damage};
 pub use difference::{Difference, first_difference};

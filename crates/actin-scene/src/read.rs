@@ -79,7 +79,7 @@ impl Scene {
         let mut value = value.clone();
         value.remove_schema();
         if let Some(folder) = folder {
-            trace::read_points(&mut value, folder)?;
+            trace::resolve_paths(&mut value, folder)?;
         }
         let written: SceneFile = deserialize(&value, "").map_err(|refusal| {
             let rule = match refusal.suggestion() {

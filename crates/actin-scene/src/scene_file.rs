@@ -3,7 +3,7 @@
 use super::validate::check_filament;
 use super::{
     Arrangement, Bead, Clamp, Crosslinkers, Filament, Linker, LinkersBetween, Load, Observable,
-    Output, PeriodicBox, Repulsion, Scene, SceneProblem, Stage, Task,
+    Output, PeriodicBox, Repulsion, Scene, SceneProblem, Stage, Start, Task,
 };
 use serde::{Deserialize, Serialize};
 
@@ -62,6 +62,9 @@ pub(super) struct SceneFile {
     /// Optional output files.
     #[serde(default, skip_serializing_if = "is_default")]
     output: Output,
+    /// Initial state; by default filaments as built, at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    start: Option<Start>,
     /// Computation to run.
     task: Task,
 }
@@ -105,6 +108,7 @@ impl TryFrom<SceneFile> for Scene {
             observe: written.observe,
             burn_in_ns: written.burn_in_ns,
             output: written.output,
+            start: written.start,
             task: written.task,
         })
     }
@@ -189,6 +193,7 @@ impl From<Scene> for SceneFile {
             observe: scene.observe,
             burn_in_ns: scene.burn_in_ns,
             output: scene.output,
+            start: scene.start,
             task: scene.task,
         }
     }

@@ -176,13 +176,14 @@ impl SceneText {
         Ok(())
     }
 
-    /// Replaces every `Points(file: ...)` by the points of the file, whose path is relative to `folder`.
+    /// Replaces every `Points(file: ...)` by the points of the file, and the directory of `start` by its absolute
+    /// path. Paths are relative to `folder`.
     ///
     /// # Errors
     /// A file that cannot be read, or an invalid row, located at the key of the file.
-    pub fn read_points(&mut self, folder: &Path) -> Result<(), SceneError> {
+    pub fn resolve_paths(&mut self, folder: &Path) -> Result<(), SceneError> {
         let before = self.parsed.root.clone();
-        let read = trace::read_points(&mut self.parsed.root, folder);
+        let read = trace::resolve_paths(&mut self.parsed.root, folder);
         self.is_changed |= self.parsed.root != before;
         read.map_err(|problem| self.locate(&problem))
     }

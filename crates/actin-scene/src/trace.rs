@@ -1,14 +1,15 @@
-//! Points of shapes from CSV files.
+//! Files of scenes: points of shapes, runs of initial states.
 
 use super::SceneProblem;
 use super::tree::{Kind, SceneValue};
 use std::path::Path;
 
-/// Replaces every `Points(file: ...)` by the points of the file, whose path is relative to `folder`.
+/// Replaces every `Points(file: ...)` by the points of the file, and the directory of `start` by its absolute
+/// path. Paths are relative to `folder`.
 ///
 /// # Errors
 /// A file that cannot be read, or an invalid row.
-pub(super) fn read_points(scene: &mut SceneValue, folder: &Path) -> Result<(), SceneProblem> {
+pub(super) fn resolve_paths(scene: &mut SceneValue, folder: &Path) -> Result<(), SceneProblem> {
     for value in scene.children_mut() {
         match value.key() {
             Some("filament") => read_filament(value, "filament", folder)?,
@@ -17,10 +18,23 @@ pub(super) fn read_points(scene: &mut SceneValue, folder: &Path) -> Result<(), S
                     read_filament(filament, &format!("filaments[{i}]"), folder)?;
                 }
             }
+            Some("start") => resolve_start(value, folder),
             _ => {}
         }
     }
     Ok(())
+}
+
+fn resolve_start(start: &mut SceneValue, folder: &Path) {
+    for value in start.children_mut() {
+        if let (Some("directory"), Kind::Text(directory)) = (value.key.as_deref(), &mut value.kind)
+        {
+            // Fails for empty paths only, which are no run.
+            if let Ok(path) = std::path::absolute(folder.join(&*directory)) {
+                *directory = path.display().to_string();
+            }
+        }
+    }
 }
 
 fn read_filament(filament: &mut SceneValue, key: &str, folder: &Path) -> Result<(), SceneProblem> {
@@ -104,7 +118,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("trace.csv"), csv).unwrap();
         let mut text = SceneText::new(SCENE);
-        text.read_points(folder.path()).map(|()| text)
+        text.resolve_paths(folder.path()).map(|()| text)
     }
 
     #[test]
@@ -135,7 +149,7 @@ mod tests {
             assert_eq!(message(csv), format!("{place}line {line}: {rule}{more}"));
         }
         let mut text = SceneText::new(SCENE);
-        let missing = text.read_points(Path::new("/nowhere")).unwrap_err();
+        let missing = text.resolve_paths(Path::new("/nowhere")).unwrap_err();
         assert!(
             missing
                 .to_string()

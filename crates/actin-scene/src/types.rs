@@ -3,7 +3,7 @@
 use super::model::{JunctionModel, Monomers, RodModel};
 use super::{
     Bead, Brownian, DragModel, Imperfection, Linker, Load, Observable, Output, PeriodicBox,
-    Quantity, Repulsion, Sections, Shape, Thermal, scene_file::SceneFile,
+    Quantity, Repulsion, Sections, Shape, Start, Thermal, scene_file::SceneFile,
 };
 use serde::{Deserialize, Serialize};
 
@@ -40,8 +40,33 @@ pub struct Scene {
     pub burn_in_ns: Option<f64>,
     /// Optional output files.
     pub output: Output,
+    /// Initial state; by default filaments as built, at rest.
+    pub start: Option<Start>,
     /// Computation to run.
     pub task: Task,
+}
+
+impl Scene {
+    /// Scene of a free filament without loads.
+    pub fn new(filament: Filament, task: Task) -> Self {
+        Self {
+            title: String::new(),
+            filament,
+            other_filaments: Vec::new(),
+            clamps: Vec::new(),
+            loads: Vec::new(),
+            linkers: Vec::new(),
+            beads: Vec::new(),
+            repulsion: None,
+            periodic: None,
+            path: Vec::new(),
+            observe: Vec::new(),
+            burn_in_ns: None,
+            output: Output::default(),
+            start: None,
+            task,
+        }
+    }
 }
 
 /// Stage of a path: controls that change together from their current to their target values.
@@ -195,6 +220,19 @@ pub struct Clamp {
     /// Directions in which the end can move as a rigid body.
     #[serde(default)]
     pub slides: FreeTranslation,
+}
+
+impl Clamp {
+    /// Wall at an end of filament 0.
+    pub fn new(end: End) -> Self {
+        Self {
+            filament: 0,
+            end,
+            hold: Hold::default(),
+            hinge: None,
+            slides: FreeTranslation::default(),
+        }
+    }
 }
 
 /// Rotational spring between the cross-section at a pinned end and a frame that the path may turn. Its energy

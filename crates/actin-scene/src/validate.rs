@@ -7,9 +7,9 @@ use super::rules::{
 use super::support::{check_support, check_swings};
 use super::{
     Adaptive, Anchors, Clamp, ClampedEnds, Dynamics, End, Equilibrium, Filament, FreeTranslation,
-    Hold, Monomers, Quantity, Resultant, Scene, SceneProblem, StopTolerances, Task, bead, brownian,
-    drag, imperfection, kinetics, linker, load_rules, magnitude, observable, periodic, repulsion,
-    saddles, section_rules, shape, stage, thermal,
+    Hold, Monomers, Quantity, Resultant, Scene, SceneProblem, Sections, StopTolerances, Task, bead,
+    brownian, drag, imperfection, kinetics, linker, load_rules, magnitude, observable, periodic,
+    repulsion, saddles, section_rules, shape, stage, thermal,
 };
 use actin_ellipsoid::{MAX_POINTS, MIN_POINTS};
 
@@ -101,7 +101,24 @@ pub(super) fn check_filament(one: &Filament, key: &str) -> Result<(), SceneProbl
     first
 }
 
+fn check_start(scene: &Scene) -> Result<(), SceneProblem> {
+    if scene.start.is_none() {
+        return Ok(());
+    }
+    let is_automatic =
+        |sections: &Sections| sections.adaptive().is_some() || sections.following().is_some();
+    let rule = if scene.filaments().any(|one| one.imperfection.is_some()) {
+        "replaces the imperfection of a filament: remove one of them"
+    } else if scene.filaments().any(|one| is_automatic(&one.sections)) {
+        "needs the sections of that run: copy them from its scene.ron"
+    } else {
+        return Ok(());
+    };
+    Err(SceneProblem::new("start", "", rule))
+}
+
 fn check_whole(scene: &Scene, held: &ClampedEnds) -> Result<(), SceneProblem> {
+    check_start(scene)?;
     check_adaptive(scene)?;
     for following in scene.filaments().filter_map(|f| f.sections.following()) {
         check_following(scene, following)?;

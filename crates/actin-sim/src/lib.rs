@@ -58,8 +58,8 @@ pub use actin_scene::{
     Monomers, Observable, Output, Override, PeriodicBox, Plane, Point, Quantity, RandomPart,
     RefinementCriterion, Repulsion, Roaming, RodChanges, RodLaw, RodLaws, RodModel, RotaryInertia,
     Scene, SceneError, SceneKind, SceneProblem, SceneText, SceneValue, Section, Sections, Setting,
-    Shape, ShearLaw, Side, Sphere, Stage, Stepping, StopTolerances, StretchLaw, Target, Task,
-    Thermal, TimeCourse, TwistLaw, TwistRise, TwistStretchLaw, WallName, Water,
+    Shape, ShearLaw, Side, Sphere, Stage, Start, Stepping, StopTolerances, StretchLaw, Target,
+    Task, Thermal, TimeCourse, TwistLaw, TwistRise, TwistStretchLaw, WallName, Water,
 };
 pub use actin_scene::{ParseReport, read_all, read_ron, to_ron};
 

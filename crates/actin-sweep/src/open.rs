@@ -71,7 +71,7 @@ impl ValidatedSweep {
         let mut scene = SceneText::new(&read(&scene_path)?);
         // Mistakes of the scene itself are reported with its own file.
         let folder = scene_path.parent().unwrap_or(Path::new(""));
-        let points = scene.read_points(folder);
+        let points = scene.resolve_paths(folder);
         let in_scene = |mistakes| SweepError::refused(&scene_path, scene.written(), mistakes);
         points.map_err(|error| in_scene(vec![error]))?;
         if let Err(error) = scene.read() {

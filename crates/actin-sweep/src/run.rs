@@ -38,7 +38,7 @@ pub(crate) fn make(
         Err(error) => return fail(&path, title, &error.to_string()),
     };
     let refused = |problem: &_| fail(&path, &scene.title, &text.locate(problem).to_string());
-    let assembly = match actin_sim::build(&scene) {
+    let assembly = match actin_rundir::build(&scene) {
         Ok(assembly) => assembly,
         Err(problem) => return refused(&problem),
     };

@@ -87,11 +87,9 @@ impl Specimen {
         let is_rod = matches!(section, Some(Section::Rod { .. }));
         let hold = if is_rod { self.hold } else { Hold::Wall };
         Clamp {
-            filament: 0,
-            end,
             hold,
-            hinge: None,
             slides,
+            ..Clamp::new(end)
         }
     }
 }

@@ -43,6 +43,7 @@ impl<'a> Plan<'a> {
     /// memory.
     pub fn new(assembly: &'a Assembly) -> Result<Self, SceneProblem> {
         let began = Instant::now();
+        assembly.check_start()?;
         let estimate = estimate(assembly)?;
         let times = estimate.as_ref().map(Estimate::record_times);
         Observers::new(assembly).check(assembly, times.as_ref())?;

@@ -54,6 +54,9 @@ const STEP: f64 = 1.0;
 /// tens of milliseconds. Use it with
 /// [`Newton::carry_along`](actin_equilibrium::Newton::carry_along).
 pub fn near_equilibrium(assembly: &Assembly) -> Option<State> {
+    if assembly.scene.start.is_some() {
+        return None;
+    }
     let is_still = assembly.drive.is_still() && matches!(assembly.scene.task, Task::Equilibrium(_));
     let loads_only = |part| matches!(part, Part::Section(_) | Part::Load(_));
     if !is_still || !assembly.terms.iter().all(|term| loads_only(term.part)) {

@@ -1,0 +1,94 @@
+//! Initial state from another run.
+
+use crate::scene::{Scene, SceneProblem, Setting, Start, Task};
+use crate::{Assembly, FrameInfo, PointInfo};
+use actin_mechanics::State;
+
+/// Tolerance for equal arc lengths (nm): far above round-off, far below changes of a scene.
+const SAME_PLACE_NM: f64 = 1e-6;
+
+impl Assembly {
+    /// Starts from `state` of `run`, whose bodies must be the same. Positions and orientations are copied, and
+    /// velocities too if both tasks are `Dynamics`. Held bodies stay at their places in `state`, from which
+    /// stages move them. Controls begin as in the scene.
+    ///
+    /// # Errors
+    /// If bodies differ, or if the state depends on linkers or strains that are not taken over.
+    pub fn start_from(&mut self, run: &Self, state: &State) -> Result<(), SceneProblem> {
+        self.check_bodies(run)?;
+        self.check_run(run)?;
+        let is_motion = |scene: &Scene| matches!(scene.task, Task::Dynamics(_));
+        let keeps_velocities = is_motion(&self.scene) && is_motion(&run.scene);
+        self.drive.rebase(&self.clamps, state);
+        let own = self.system.state_mut();
+        own.points.position.clone_from(&state.points.position);
+        own.frames.orientation.clone_from(&state.frames.orientation);
+        if keeps_velocities {
+            own.points.velocity.clone_from(&state.points.velocity);
+            let momentum = &state.frames.angular_momentum;
+            own.frames.angular_momentum.clone_from(momentum);
+        }
+        self.drive.place(own, 0.0);
+        self.is_started = true;
+        Ok(())
+    }
+
+    /// Returns an error if the initial state of the scene was not set.
+    ///
+    /// # Errors
+    /// If the scene has `start` and [`start_from`](Self::start_from) was not called.
+    pub fn check_start(&self) -> Result<(), SceneProblem> {
+        if self.scene.start.is_none() || self.is_started {
+            return Ok(());
+        }
+        Err(self.refused_start("initial states are read by run, check and sweep only (in Rust by `actin_rundir::build`)"))
+    }
+
+    /// Returns the problem of an unusable initial state.
+    pub fn refused_start(&self, rule: impl Into<String>) -> SceneProblem {
+        let directory = self
+            .scene
+            .start
+            .as_ref()
+            .map(|Start::Run { directory }| directory);
+        let value = directory.map_or_else(String::new, |directory| format!("{directory:?}"));
+        SceneProblem::new("start.directory", value, rule)
+    }
+
+    fn check_bodies(&self, run: &Self) -> Result<(), SceneProblem> {
+        let is_same_point = |(a, b): (&PointInfo, &PointInfo)| {
+            a.kind == b.kind && (a.s_nm - b.s_nm).abs() < SAME_PLACE_NM
+        };
+        let is_same_frame = |(a, b): (&FrameInfo, &FrameInfo)| {
+            a.kind == b.kind && (a.s_nm - b.s_nm).abs() < SAME_PLACE_NM
+        };
+        let [own, other] = [self, run].map(|one| (one.points.len(), one.frames.len()));
+        if own != other {
+            let [own, other] =
+                [own, other].map(|(points, frames)| format!("{points} points and {frames} frames"));
+            let rule =
+                format!("is a run with {other}, but the scene has {own}: write the same sections");
+            return Err(self.refused_start(rule));
+        }
+        let are_same = self.points.iter().zip(&run.points).all(is_same_point)
+            && self.frames.iter().zip(&run.frames).all(is_same_frame);
+        if are_same {
+            return Ok(());
+        }
+        Err(self.refused_start("is a run with other sections: write the same sections"))
+    }
+
+    fn check_run(&self, run: &Self) -> Result<(), SceneProblem> {
+        let settings = run.scene.path.iter().flat_map(|stage| &stage.set);
+        let moves =
+            |setting: &Setting| matches!(setting, Setting::Anchor { .. } | Setting::Shear { .. });
+        let rule = if run.has_events() {
+            "is a run whose linkers bind or unbind: they cannot be taken over"
+        } else if settings.into_iter().any(moves) {
+            "is a run whose path moves anchors or shears the periodic box: these cannot be taken over"
+        } else {
+            return Ok(());
+        };
+        Err(self.refused_start(rule))
+    }
+}
