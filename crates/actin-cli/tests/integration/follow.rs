@@ -5,7 +5,7 @@ use crate::common::{Workplace, assert_has, assert_same_files, signal, stdout};
 use std::fs;
 use std::path::Path;
 
-/// A released cantilever with some twenty switches in half a second.
+/// A released cantilever with some forty switches in a few seconds.
 const SWINGING: &str = "Scene(
     filament: Filament(
         sections: Following(
@@ -17,7 +17,7 @@ const SWINGING: &str = "Scene(
     clamps: [Clamp(end: Start)],
     loads: [EndForce(end: End, force_pn: (-5.0, 0.0, 0.0))],
     observe: [Tip()],
-    task: Dynamics(duration_ns: 300.0, record_every_ns: 0.1),
+    task: Dynamics(duration_ns: 50.0, record_every_ns: 0.1),
 )";
 
 const OVERDAMPED: &str = "Scene(

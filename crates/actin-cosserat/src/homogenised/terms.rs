@@ -357,7 +357,8 @@ impl Term {
     }
 
     /// Value without polynomial.
-    #[inline]
+    // Inlined into the loop over all terms, it crashes LLVM 22 in builds with one codegen unit.
+    #[inline(never)]
     pub(super) fn value(self, of: &Values) -> f64 {
         let [x, y, z] = self.factors().map(|factor| of[factor as usize]);
         x * y * z
