@@ -24,4 +24,5 @@ mod rest;
 mod short_bonds;
 mod steps;
 mod thermal;
+mod threads;
 mod water;
