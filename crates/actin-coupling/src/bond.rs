@@ -19,8 +19,8 @@ pub(crate) struct Bond {
     /// Bending elements between the first two and the last two frames.
     pub(crate) bending: [BendingElement; 2],
     /// Materials of the bending elements. The element at the rod has the rest curvature of the rod
-    /// times the fraction of its length inside the rod, plus the rest twist of the monomers times the
-    /// other fraction.
+    /// times the fraction of its length inside the rod. The other fraction has the rest twist of the
+    /// monomers.
     pub(crate) materials: [RodMaterial; 2],
     /// Difference between the rest curvatures of the rod and of the element at the rod (rad/nm).
     pub(crate) curvature_difference: Vector3,
