@@ -2,8 +2,9 @@
 
 use super::common::{build, run};
 use crate::common::refusal;
-use actin_mechanics::{Vector3, Xorshift, perturb, rotation};
-use actin_sim::{Assembly, End};
+use actin_mechanics::testing::{assert_is_balanced, assert_is_gradient, assert_is_stiffness};
+use actin_mechanics::{Interaction, Vector3, Xorshift, perturb, rotation};
+use actin_sim::{Assembly, End, FrameInfo};
 
 const LENGTH: f64 = 210.0;
 const SPECIMEN: f64 = 120.0;
@@ -210,4 +211,171 @@ fn weight_counts_the_mass_of_sections() {
         refused.contains("the filament has no equilibrium"),
         "{refused}"
     );
+}
+
+/// Turn per monomer (deg), the bare one and that of cofilin.
+const TURNS: [f64; 2] = [-360.0 * 12.0 / 26.0, -162.0];
+const RISE: f64 = 71.2 / 26.0;
+
+/// Rest twist of monomers with cofilin (rad/nm).
+fn rest_twist() -> f64 {
+    (TURNS[1] - TURNS[0]).to_radians() / RISE
+}
+
+const DECORATED: &str = "altered: (turn_deg: -162.0, lateral_rigidity_factor: 0.1)";
+
+/// Boundaries half a rise after a monomer (nm).
+const PLACES: [f64; 4] = [21.5 * RISE, 29.5 * RISE, 43.5 * RISE, 51.5 * RISE];
+
+/// Filament with decorated monomers or rods in the middle.
+fn decorated(inner: &str, outer: &str, filament: &str) -> Assembly {
+    let (twist, [from, _, _, to]) = (rest_twist(), PLACES);
+    let inner = inner.replace("RODS", &format!("altered: (rest_twist_per_nm: {twist:?})"));
+    build(&format!(
+        "Scene(
+            filament: Filament(
+                sections: [
+                    {outer}(from_nm: 0.0, to_nm: {from:?}), {inner},
+                    {outer}(from_nm: {to:?}, to_nm: 200.0),
+                ],
+                {filament}
+            ),
+            clamps: [Clamp(end: Start)],
+            task: Equilibrium(),
+        )"
+    ))
+}
+
+fn monomers(change: &str) -> String {
+    let [from, _, _, to] = PLACES;
+    format!("Ellipsoids(from_nm: {from:?}, to_nm: {to:?}, {change})")
+}
+
+fn rods() -> String {
+    monomers("RODS").replace("Ellipsoids", "Rod")
+}
+
+fn partly() -> String {
+    let [a, b, c, d] = PLACES;
+    format!(
+        "Rod(from_nm: {a:?}, to_nm: {b:?}, RODS), Ellipsoids(from_nm: {b:?}, to_nm: {c:?}, {DECORATED}),
+         Rod(from_nm: {c:?}, to_nm: {d:?}, RODS)"
+    )
+}
+
+#[test]
+fn filaments_of_altered_turn_are_built_at_rest() {
+    let kinds = ["Independent", "Identical", "Cubature"];
+    let anchors = kinds.map(|kind| format!("monomers: Monomers(anchors: {kind}),"));
+    let places = [
+        "",
+        "direction: (1.0, -2.0, 2.0), roll_deg: 30.0,",
+        "shape: AtRest,",
+    ];
+    let laws = ["Constant", "Fitted", "Homogenised"];
+    for k in 0..3 {
+        let filament = format!(
+            "{} {} rod: RodModel(law: {}),",
+            anchors[k], places[k], laws[k]
+        );
+        let inners = [monomers(DECORATED), rods(), partly()];
+        for (inner, outer) in inners
+            .iter()
+            .flat_map(|i| ["Ellipsoids", "Rod"].map(|o| (i, o)))
+        {
+            let mut assembly = decorated(inner, outer, &filament);
+            let loads = assembly.system.loads().clone();
+            let residual = loads.residual(&assembly.rest);
+            // Places of 200 nm, rounded to 3e-14 nm, times rigidities of 5e4 pN; torques over 10 nm.
+            assert!(
+                residual.force < 1e-8 && residual.torque < 1e-7,
+                "{filament} {inner} {outer}: {residual:?}"
+            );
+        }
+    }
+}
+
+/// The section adds the change of the turn for each of its monomers, half of it at both ends. The bare helix is the same
+/// at the start.
+#[test]
+fn the_altered_turn_adds_up() {
+    let [bare, own] = ["", DECORATED].map(|change| decorated(&monomers(change), "Rod", ""));
+    let change = (TURNS[1] - TURNS[0]).to_radians();
+    let section = &own.sections[1];
+    let count = section.points.len() as f64;
+    for (i, frame) in own.frames.iter().enumerate() {
+        let q = |assembly: &Assembly| assembly.rest.frames.orientation.get(i);
+        let found = q(&bare).inverse() * q(&own);
+        let within = (frame.s_nm - section.from_nm) / RISE;
+        let expected = rotation::exp(Vector3::z() * (change * within.clamp(0.0, count)));
+        // Azimuths of 200 rad, rounded.
+        assert!(found.angle_to(&expected) < 1e-12, "{}: {found}", frame.s_nm);
+    }
+    for (i, frame) in own
+        .frames
+        .iter()
+        .enumerate()
+        .take(section.frames.end)
+        .skip(section.frames.start + 1)
+    {
+        let q = |i: usize| own.rest.frames.orientation.get(i);
+        let step = q(i - 1).inverse() * q(i);
+        let expected = rotation::exp(Vector3::z() * TURNS[1].to_radians());
+        assert!(step.angle_to(&expected) < 1e-12, "{}", frame.s_nm);
+    }
+}
+
+/// Monomers have the same places and orientations in a mixed filament and in a filament of monomers.
+#[test]
+fn the_turn_does_not_depend_on_the_resolution() {
+    let whole = decorated(&monomers(DECORATED), "Ellipsoids", "");
+    for (outer, shape) in [("Ellipsoids", ""), ("Rod", ""), ("Rod", "shape: AtRest,")] {
+        let mixed = decorated(&partly(), outer, shape);
+        let mut count = 0;
+        for (i, frame) in mixed.frames.iter().enumerate() {
+            let same = |other: &FrameInfo| {
+                (other.s_nm - frame.s_nm).abs() < 1e-9 && other.kind == frame.kind
+            };
+            let Some(k) = whole.frames.iter().position(same) else {
+                continue;
+            };
+            let q = |a: &Assembly, i: usize| a.rest.frames.orientation.get(i);
+            assert!(
+                q(&mixed, i).angle_to(&q(&whole, k)) < 1e-12,
+                "{}",
+                frame.s_nm
+            );
+            count += 1;
+        }
+        assert!(count >= 14, "{count}");
+    }
+}
+
+#[test]
+fn bonds_and_junctions_of_altered_turn_are_gradients() {
+    for outer in ["Ellipsoids", "Rod"] {
+        let assembly = decorated(&partly(), outer, "rod: RodModel(law: Fitted),");
+        let mut state = assembly.rest.clone();
+        perturb(&mut state, &mut Xorshift::new(8), 0.02, 0.05);
+        for interaction in assembly.system.interactions() {
+            assert_is_gradient(interaction.as_ref(), &state, 1e-4, 1e-6);
+            assert_is_stiffness(interaction.as_ref(), &state, 1e-4, 1e-5);
+            assert_is_balanced(interaction.as_ref(), &state, 1e-11);
+        }
+    }
+}
+
+/// Bonds across the boundaries of a section have their own quadrature.
+#[test]
+fn bonds_across_boundaries_are_listed() {
+    let assembly = decorated(&monomers(DECORATED), "Ellipsoids", "");
+    let mut state = assembly.rest.clone();
+    perturb(&mut state, &mut Xorshift::new(8), 0.02, 0.05);
+    for (i, interaction) in assembly.system.interactions().iter().enumerate() {
+        let bonds = assembly.bonds_of(i).unwrap();
+        let (own, acting) = (bonds.energy(&state), interaction.energy(&state));
+        // Sums of a few thousand terms.
+        assert!((own / acting - 1.0).abs() < 1e-12, "{own} {acting}");
+        assert!(bonds.energy(&assembly.rest) < 1e-20 * own, "{i}");
+    }
 }

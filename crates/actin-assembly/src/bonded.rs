@@ -1,6 +1,7 @@
 //! Bonds between monomers and bonds of junctions, for pictures and measurements.
 
 use super::{Assembly, BodyKind, Resolution, models};
+use crate::scene::Section;
 use actin_ellipsoid::{Bonds, Monomers};
 use std::ops::Range;
 
@@ -41,19 +42,19 @@ impl Assembly {
         };
         let filament = self.filament_of_section(section);
         let first = self.filaments[filament].sections.start;
-        let written = self
-            .scene
-            .filament_at(filament)?
-            .sections
-            .get(section - first)?;
-        let model = models::ellipsoids(&written.monomers(self.monomers_of(filament)), filament)
+        let sections = &self.scene.filament_at(filament)?.sections;
+        let of = |section: &Section| section.monomers(self.monomers_of(filament));
+        let own = of(sections.get(section - first)?);
+        let next = sections.get(section - first + 1).map(of);
+        let next_turn = next.as_ref().unwrap_or(&own).turn_deg.to_radians();
+        let model = models::ellipsoids(&own, filament)
             .expect("the assembly was built with these parameters");
         let lowers = monomers.count;
         let run = Monomers {
             count: lowers + if self.goes_on_bonded(section) { 2 } else { 0 },
             ..monomers
         };
-        let bonds = model.bonds_above(&run, lowers);
+        let bonds = model.bonds_above(&run, lowers, next_turn);
         Some(bonds.expect("the assembly was built with these bonds"))
     }
 

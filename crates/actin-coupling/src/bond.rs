@@ -1,5 +1,5 @@
 use actin_cosserat::{BendingElement, JoinedElement, RodMaterial, ShearElement};
-use actin_mechanics::{Loads, State, Stiffness, UnitQuaternion, Vector3};
+use actin_mechanics::{Loads, State, Stiffness, UnitQuaternion, Vector3, rotation};
 
 /// Bond with its junction frame, in filament order.
 ///
@@ -19,7 +19,8 @@ pub(crate) struct Bond {
     /// Bending elements between the first two and the last two frames.
     pub(crate) bending: [BendingElement; 2],
     /// Materials of the bending elements. The element at the rod has the rest curvature of the rod
-    /// times the fraction of its length inside the rod.
+    /// times the fraction of its length inside the rod. The other fraction has the rest twist of the
+    /// monomers.
     pub(crate) materials: [RodMaterial; 2],
     /// Difference between the rest curvatures of the rod and of the element at the rod (rad/nm).
     pub(crate) curvature_difference: Vector3,
@@ -64,6 +65,22 @@ impl Bond {
     /// Curvature of the element at the rod (rad/nm).
     pub(crate) fn curvature_towards_rod(&self, state: &State) -> Vector3 {
         self.curvatures(state)[usize::from(self.monomer == 0)]
+    }
+
+    /// Adds a rest twist (rad/nm) of the monomers, on their side of the junction.
+    pub(crate) fn twist_at_rest(&mut self, twist: f64) {
+        let towards_monomer = usize::from(self.monomer != 0);
+        let half = self.bending[towards_monomer].rest_distance;
+        for (element, material) in self.bending.iter().zip(&mut self.materials) {
+            let rest = Vector3::z() * (twist * half / element.rest_distance);
+            let twisted = material.with_rest_curvature(material.rest_curvature() + rest);
+            *material = twisted.expect("a twist of monomers is finite");
+        }
+        let towards_rod = self.bending[1 - towards_monomer].rest_distance;
+        self.curvature_difference.z -= twist * half / towards_rod;
+        let sense = if self.monomer == 0 { -1.0 } else { 1.0 };
+        let turn = rotation::exp(Vector3::z() * (sense * twist * half));
+        self.shear.rest_direction = turn * self.shear.rest_direction;
     }
 
     pub(crate) fn strain(&self, state: &State) -> Vector3 {

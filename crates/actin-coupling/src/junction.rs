@@ -72,7 +72,7 @@ pub struct JunctionParts<'a> {
 /// inverted.
 ///
 /// The element of length `D_C` has the rest curvature of the rod times the fraction of `D_C` inside
-/// the rod. Loads are the negative gradient of `E`, so linear and angular momentum are conserved.
+/// the rod. Monomers can be [twisted](Self::with_monomer_twist) at rest. Loads are the negative gradient of `E`, so linear and angular momentum are conserved.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 3, with signs and factors derived from this energy. The printed
@@ -137,6 +137,16 @@ impl Junction {
             is_covered: true,
             ..self
         }
+    }
+
+    /// Adapts the rest state to monomers that are twisted at rest (rad/nm) relative to the state in
+    /// which the junction was created.
+    #[must_use]
+    pub fn with_monomer_twist(mut self, twist: f64) -> Self {
+        for bond in &mut self.bonds {
+            bond.twist_at_rest(twist);
+        }
+        self
     }
 
     /// Indices of the junction frames.

@@ -6,7 +6,9 @@ mod sums;
 
 use crate::kernel::AddLoads;
 use crate::table::{BondTable, Relative};
-use crate::{Bond, EllipsoidModel, InterfaceError, InterfaceKind, Monomers};
+use crate::{
+    Anchors, Bond, EllipsoidModel, EllipsoidParameters, InterfaceError, InterfaceKind, Monomers,
+};
 use actin_mechanics::wide::{self, Arch};
 use actin_mechanics::{Interaction, Loads, Matrix3, SecondOrder, State, Vector3};
 
@@ -65,18 +67,18 @@ struct Body {
 }
 
 impl Bonds {
-    /// Bonds of all interfaces whose lower monomer is among the first `lowers` of the run.
+    /// Bonds of all interfaces whose lower monomer is among the first `lowers` of the run. Later
+    /// monomers have the turn `next_turn`.
     pub(crate) fn new(
         model: &EllipsoidModel,
         monomers: Monomers,
         lowers: usize,
+        next_turn: f64,
     ) -> Result<Self, InterfaceError> {
         let lowers = lowers.min(monomers.count);
         let [lateral, longitudinal] = InterfaceKind::ALL;
-        let tables = [
-            Self::tabulate(model, lateral, &monomers, lowers)?,
-            Self::tabulate(model, longitudinal, &monomers, lowers)?,
-        ];
+        let tabulate = |kind| Self::tabulate(model, kind, &monomers, (lowers, next_turn));
+        let tables = [tabulate(lateral)?, tabulate(longitudinal)?];
         let mut pairs = Vec::new();
         for lower in 0..lowers {
             for (kind, table) in InterfaceKind::ALL.into_iter().zip(&tables) {
@@ -104,20 +106,36 @@ impl Bonds {
         model: &EllipsoidModel,
         kind: InterfaceKind,
         monomers: &Monomers,
-        lowers: usize,
+        (lowers, next_turn): (usize, f64),
     ) -> Result<BondTable, InterfaceError> {
+        let EllipsoidParameters { anchors, turn, .. } = *model.parameters();
         let parameters = model.parameters().interface(kind);
         let (step, number) = (kind.steps(), parameters.bonds);
         let pairs = monomers.count.saturating_sub(step).min(lowers);
-        if model.parameters().anchors.are_shared() && pairs > 0 {
-            let interface = model.interface(kind, monomers.first_index)?;
-            let rigidity = parameters.rigidity;
-            return Ok(BondTable::shared(step, pairs, rigidity, &interface.bonds));
+        let is_weighted = anchors == Anchors::Cubature;
+        let mut table = BondTable::new(step, number, parameters.rigidity, is_weighted);
+        let inside = if next_turn.to_bits() == turn.to_bits() {
+            pairs
+        } else {
+            pairs.min(lowers.saturating_sub(step))
+        };
+        let shared = (anchors.are_shared() && inside > 0)
+            .then(|| model.interface(kind, monomers.first_index))
+            .transpose()?;
+        if let Some(shared) = shared.as_ref().filter(|_| inside == pairs) {
+            return Ok(table.shared_by(pairs, &shared.bonds));
         }
-        let mut table = BondTable::new(step, number, parameters.bond_stiffness());
         for lower in 0..pairs {
-            let interface = model.interface(kind, monomers.index(lower))?;
-            table.push(&interface.bonds);
+            let index = monomers.index(lower);
+            let beyond = (lower + step + 1).saturating_sub(lowers) as f64 - 0.5;
+            match &shared {
+                Some(shared) if lower < inside => table.push(&shared.bonds),
+                _ if lower < inside => table.push(&model.interface(kind, index)?.bonds),
+                _ => {
+                    let mean = turn + (next_turn - turn) * beyond / step as f64;
+                    table.push(&model.with_turn(mean).interface(kind, index)?.bonds);
+                }
+            }
         }
         Ok(table)
     }
@@ -215,16 +233,22 @@ impl EllipsoidModel {
     /// # Errors
     /// As [`Self::interface`].
     pub fn bonds(&self, monomers: &Monomers) -> Result<Bonds, InterfaceError> {
-        Bonds::new(self, *monomers, monomers.count)
+        self.bonds_above(monomers, monomers.count, self.parameters().turn)
     }
 
     /// Bonds of a run whose lower monomers are among the first `lowers`. They join a section with
-    /// its own parameters to the first monomers of the next section.
+    /// its own parameters to the first monomers of the next section, whose turn per monomer (rad) is
+    /// `next_turn`. The turn changes in the middle between the sections.
     ///
     /// # Errors
     /// As [`Self::interface`].
-    pub fn bonds_above(&self, monomers: &Monomers, lowers: usize) -> Result<Bonds, InterfaceError> {
-        Bonds::new(self, *monomers, lowers)
+    pub fn bonds_above(
+        &self,
+        monomers: &Monomers,
+        lowers: usize,
+        next_turn: f64,
+    ) -> Result<Bonds, InterfaceError> {
+        Bonds::new(self, *monomers, lowers, next_turn)
     }
 }
 

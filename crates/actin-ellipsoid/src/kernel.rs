@@ -260,7 +260,7 @@ fn sum_bonds<S: Simd, const WEIGHTED: bool>(
         let strain = simd.div_f64s(length, simd.sqrt_f64s(squared));
         let mut factor = simd.sub_f64s(one, strain);
         if WEIGHTED {
-            factor = simd.mul_f64s(factor, simd.splat_f64s(weights[k]));
+            factor = simd.mul_f64s(factor, wide::read(simd, &weights[k], place));
         }
         let f = wide::scale(simd, d, factor);
         force = wide::add(simd, force, f);

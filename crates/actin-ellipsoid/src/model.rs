@@ -43,6 +43,14 @@ impl EllipsoidModel {
         &self.parameters
     }
 
+    /// Model with another turn per monomer (rad).
+    #[must_use]
+    pub fn with_turn(&self, turn: f64) -> Self {
+        let mut model = self.clone();
+        model.parameters.turn = turn;
+        model
+    }
+
     /// Helix of the monomers.
     pub fn helix(&self) -> Helix {
         Helix::new(&self.parameters)

@@ -212,11 +212,6 @@ impl InterfaceParameters {
         }
         Ok(())
     }
-
-    /// Mean stiffness of a bond (pN/nm), equal to the stiffness of each sampled bond.
-    pub(crate) fn bond_stiffness(&self) -> f64 {
-        self.rigidity / self.bonds as f64
-    }
 }
 
 fn out_of_range(key: EllipsoidKey, value: f64, rule: &'static str) -> EllipsoidParameterError {

@@ -20,14 +20,15 @@ pub(crate) struct BondTable {
     /// One record per bond for each group of pairs, or for a single group if bonds are shared.
     records: Vec<Record>,
     shared: bool,
-    /// Weights of the bonds of a pair; empty for equal weights.
-    weights: Vec<f64>,
+    is_weighted: bool,
+    /// Weights of the bonds in the order of the records; empty for equal weights.
+    weights: Vec<[f64; GROUP]>,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Group<'a> {
     pub(crate) records: &'a [Record],
-    pub(crate) weights: &'a [f64],
+    pub(crate) weights: &'a [[f64; GROUP]],
 }
 
 /// Current pose of the upper body in the frame of the lower one.
@@ -38,33 +39,30 @@ pub(crate) struct Relative {
 }
 
 impl BondTable {
-    /// Table without pairs, for bonds of equal weight that differ between pairs.
-    pub(crate) fn new(step: usize, bonds: usize, stiffness: f64) -> Self {
+    /// Table without pairs, for interfaces of this rigidity (pN/nm).
+    pub(crate) fn new(step: usize, bonds: usize, rigidity: f64, is_weighted: bool) -> Self {
+        let share = if is_weighted { 1.0 } else { bonds as f64 };
         Self {
             step,
             bonds,
-            stiffness,
+            stiffness: rigidity / share,
             pairs: 0,
             records: Vec::new(),
             shared: false,
+            is_weighted,
             weights: Vec::new(),
         }
     }
 
-    pub(crate) fn shared(step: usize, pairs: usize, rigidity: f64, bonds: &[Bond]) -> Self {
-        let mut table = Self::new(step, bonds.len(), rigidity / bonds.len() as f64);
+    /// The same bonds for all pairs.
+    pub(crate) fn shared_by(mut self, pairs: usize, bonds: &[Bond]) -> Self {
         for _ in 0..GROUP {
-            table.push(bonds);
-        }
-        let is_alike = |pair: &[Bond]| pair[0].weight.to_bits() == pair[1].weight.to_bits();
-        if !bonds.windows(2).all(is_alike) {
-            table.weights = bonds.iter().map(|bond| bond.weight).collect();
-            table.stiffness = rigidity;
+            self.push(bonds);
         }
         Self {
             pairs,
             shared: true,
-            ..table
+            ..self
         }
     }
 
@@ -81,16 +79,22 @@ impl BondTable {
                 lanes[lane] = *value;
             }
         }
+        if self.is_weighted {
+            self.weights.resize(self.records.len(), [0.0; GROUP]);
+            for (lanes, bond) in self.weights[start..].iter_mut().zip(bonds) {
+                lanes[lane] = bond.weight;
+            }
+        }
         self.pairs += 1;
     }
 
     #[inline]
     pub(crate) fn group(&self, pair: usize) -> Group<'_> {
         let group = if self.shared { 0 } else { pair / GROUP };
-        let start = group * self.bonds;
+        let bonds = group * self.bonds..(group + 1) * self.bonds;
         Group {
-            records: &self.records[start..start + self.bonds],
-            weights: &self.weights,
+            records: &self.records[bonds.clone()],
+            weights: self.weights.get(bonds).unwrap_or_default(),
         }
     }
 
@@ -103,7 +107,7 @@ impl BondTable {
                 lower: Vector3::new(ax, ay, az),
                 upper: Vector3::new(bx, by, bz),
                 rest_length,
-                weight: weights.get(k).copied().unwrap_or(alike),
+                weight: weights.get(k).map_or(alike, |lanes| lanes[pair % GROUP]),
             }
         })
     }

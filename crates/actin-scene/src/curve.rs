@@ -1,6 +1,6 @@
 //! Reference curve of a filament, of pieces of constant curvature. It starts at the origin along lab +z.
 
-use super::{Filament, RodChanges, Shape};
+use super::{Filament, Shape};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use std::f64::consts::TAU;
 
@@ -12,6 +12,23 @@ pub struct Curve {
     pieces: Vec<Piece>,
     /// Length (nm) of a spline.
     length: Option<f64>,
+    /// Rest twist of the sections, where the pieces do not include it.
+    rolls: Vec<Roll>,
+}
+
+/// Rotation of the frames about the tangent.
+#[derive(Clone, Debug, PartialEq)]
+struct Roll {
+    from: f64,
+    angle: f64,
+    /// Rate (rad/nm).
+    rate: f64,
+}
+
+impl Roll {
+    fn at(&self, s: f64) -> f64 {
+        self.angle + self.rate * (s - self.from)
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +68,7 @@ impl Piece {
 impl Curve {
     /// Creates the curve of a filament whose sections start at these arc lengths (nm).
     pub fn new(filament: &Filament, boundaries: &[f64]) -> Self {
-        match &filament.shape {
+        let curve = match &filament.shape {
             None => Self::from_pieces(vec![Piece::straight()]),
             Some(Shape::Arc {
                 radius_nm,
@@ -66,14 +83,35 @@ impl Curve {
                 azimuth_deg,
             }) => Self::from_pieces(vec![helix(*radius_nm, *pitch_nm, *azimuth_deg)]),
             Some(Shape::Points { nm, .. }) => Self::through(nm),
-            Some(Shape::AtRest) => Self::at_rest(filament, boundaries),
+            Some(Shape::AtRest) => return Self::at_rest(filament, boundaries),
+        };
+        curve.rolled(filament, boundaries)
+    }
+
+    /// Adds the rest twist of the sections.
+    fn rolled(mut self, filament: &Filament, boundaries: &[f64]) -> Self {
+        let mut angle = 0.0;
+        for (section, &from) in filament.sections.iter().zip(boundaries) {
+            angle = self.rolls.last().map_or(angle, |before| before.at(from));
+            let rate = section.rest_curvature(&filament.monomers).z;
+            self.rolls.push(Roll { from, angle, rate });
         }
+        if self.rolls.iter().all(|roll| roll.rate.abs() <= 0.0) {
+            self.rolls.clear();
+        }
+        self
+    }
+
+    /// Returns whether the curve is straight without twist.
+    pub fn is_straight(&self) -> bool {
+        self.rolls.is_empty() && self.pieces == [Piece::straight()]
     }
 
     fn from_pieces(pieces: Vec<Piece>) -> Self {
         Self {
             pieces,
             length: None,
+            rolls: Vec::new(),
         }
     }
 
@@ -84,12 +122,11 @@ impl Curve {
                 || (Vector3::zeros(), UnitQuaternion::identity()),
                 |before| before.at(from),
             );
-            let altered = section.altered_rod();
             pieces.push(Piece {
                 from,
                 place,
                 frame,
-                curvature: altered.map_or_else(Vector3::zeros, RodChanges::rest_curvature),
+                curvature: section.rest_curvature(&filament.monomers),
                 unroll: 0.0,
             });
         }
@@ -128,6 +165,7 @@ impl Curve {
         Self {
             pieces,
             length: Some(s),
+            rolls: Vec::new(),
         }
     }
 
@@ -135,7 +173,11 @@ impl Curve {
     /// curvature.
     pub fn at(&self, s_nm: f64) -> (Vector3, UnitQuaternion) {
         let past = self.pieces.partition_point(|piece| piece.from <= s_nm);
-        self.pieces[past.saturating_sub(1)].at(s_nm)
+        let (place, frame) = self.pieces[past.saturating_sub(1)].at(s_nm);
+        let past = self.rolls.partition_point(|roll| roll.from <= s_nm);
+        let roll = self.rolls.get(past.saturating_sub(1));
+        let turned = roll.map(|roll| frame * rotation::exp(Vector3::z() * roll.at(s_nm)));
+        (place, turned.unwrap_or(frame))
     }
 
     /// Returns the length (nm) of a spline; other curves are unbounded.
@@ -252,7 +294,7 @@ impl Spline {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Section;
+    use crate::{RodChanges, Section};
 
     fn curve(shape: Shape) -> Curve {
         let filament = Filament {

@@ -7,6 +7,9 @@ use super::{Filament, Material, RodChanges, SceneProblem, Section};
 
 const BOUNDARY_TOLERANCE_NM: f64 = 1e-9;
 
+/// Largest change of the turn per monomer (deg).
+const LARGEST_TURN_DEG: f64 = 30.0;
+
 pub(super) fn check(filament: &Filament, note: &mut impl FnMut(Result<(), SceneProblem>)) {
     if let Some(adaptive) = filament.sections.adaptive() {
         note(check_adaptive(adaptive));
@@ -86,7 +89,22 @@ fn check_altered(key: &str, section: &Section, filament: &Filament) -> Result<()
             check_bonds(&format!("{key}.{name}"), filament.monomers.anchors, bonds)?;
         }
     }
-    Ok(())
+    let (turn, own) = (
+        filament.monomers.turn_deg,
+        altered.turn_deg.unwrap_or(filament.monomers.turn_deg),
+    );
+    // NaN is refused.
+    if (own - turn).abs() <= LARGEST_TURN_DEG {
+        return Ok(());
+    }
+    let rule = format!(
+        "must be within {LARGEST_TURN_DEG:?} degrees of the turn of the filament, {turn:.1} degrees"
+    );
+    Err(SceneProblem::new(
+        format!("{key}.turn_deg"),
+        show(own),
+        rule,
+    ))
 }
 
 fn check_span(i: usize, section: &Section) -> Result<(), SceneProblem> {

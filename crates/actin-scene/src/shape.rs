@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 /// Curve along which a filament is built. It is the initial shape, not the rest shape: a filament with straight
 /// sections is bent along the curve, without stretch or shear, and starts under stress.
 ///
-/// Cross-sections follow the curve without twist (parallel transport), from `roll_deg` at the start. Along
-/// `AtRest` they have the rest twist of the rods.
+/// Cross-sections follow the curve (parallel transport), from `roll_deg` at the start, and have the rest twist of
+/// the sections.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -49,7 +49,7 @@ pub enum Shape {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         file: Option<String>,
     },
-    /// Rest shape: rods with their rest curvature and twist, monomers straight.
+    /// Rest shape: rods with their rest curvature, monomers straight.
     AtRest,
 }
 

@@ -1,4 +1,4 @@
-//! Bending of a straight, unstrained filament to the curve of its shape.
+//! Bending of a straight filament to the curve of its shape, and twisting to its rest twist.
 
 use super::SceneParts;
 use super::strand::{Body, Strand, check_angle};
@@ -9,7 +9,7 @@ use actin_mechanics::{Vector3, rotation};
 use std::ops::Range;
 
 impl Strand<'_> {
-    /// Moves the bodies of the filament to its curve. Segments keep their lengths.
+    /// Moves the bodies of the filament to its curve and rest twist. Segments keep their lengths.
     ///
     /// # Errors
     /// If neighbouring segments would form a right or larger angle.
@@ -18,11 +18,12 @@ impl Strand<'_> {
         frames: Range<usize>,
         stock: &mut SceneParts,
     ) -> Result<(), SceneProblem> {
-        if self.filament.shape.is_none() {
+        let from: Vec<f64> = self.resolved.iter().map(|r| r.from_nm).collect();
+        let curve = Curve::new(self.filament, &from);
+        if self.filament.shape.is_none() && curve.is_straight() {
             return Ok(());
         }
-        let from: Vec<f64> = self.resolved.iter().map(|r| r.from_nm).collect();
-        let mut built = BuiltAxis::new(Curve::new(self.filament, &from));
+        let mut built = BuiltAxis::new(curve);
         self.turn_frames(frames, built.curve(), stock);
         for (i, body) in self.bodies.iter().enumerate() {
             let (from_nm, to_nm) = (self.resolved[i].from_nm, self.resolved[i].to_nm);

@@ -59,7 +59,7 @@ impl Strand<'_> {
             Body::Monomers(monomers) => {
                 let run = self.bonded_run(i, monomers);
                 let bonds = self.models[i]
-                    .bonds_above(&run, monomers.count)
+                    .bonds_above(&run, monomers.count, self.turns(i)[1])
                     .map_err(|e| models::unbonded(&e, &self.filament.monomers))?;
                 if let Resolution::Ellipsoids { bonds: count, .. } =
                     &mut stock.sections[self.first_section + i].resolution
@@ -97,14 +97,16 @@ impl Strand<'_> {
                 })
                 .collect()
         };
-        let (side, attached, (rod, layout)) = match (&self.bodies[i], &self.bodies[i + 1]) {
+        let (side, attached, [monomers, rod], layout) = match (&self.bodies[i], &self.bodies[i + 1])
+        {
             (Body::Monomers(m), Body::Rod(layout)) => (
                 JunctionSide::MonomersFirst,
                 attach(m, m.count - n),
-                (i + 1, layout),
+                [i, i + 1],
+                layout,
             ),
             (Body::Rod(layout), Body::Monomers(m)) => {
-                (JunctionSide::RodFirst, attach(m, 0), (i, layout))
+                (JunctionSide::RodFirst, attach(m, 0), [i + 1, i], layout)
             }
             _ => unreachable!("a junction is between monomers and a rod"),
         };
@@ -117,7 +119,9 @@ impl Strand<'_> {
             material: self.laws[rod].material,
         };
         let junction = Junction::new(&stock.state, parts);
+        let twist = self.filament.sections[monomers].rest_curvature(&self.filament.monomers);
         let junction = junction.map_err(|error| junction_problem(&error))?;
+        let junction = junction.with_monomer_twist(twist.z);
         Ok(if self.laws[rod].is_extended() {
             junction.with_extended_rod()
         } else {

@@ -175,7 +175,9 @@ impl<'a> Strand<'a> {
             ..self.placement
         };
         let count = usize::try_from(last - first + 1).expect("resolve leaves at least two");
-        let built = self.models[i].build(&mut stock.state, &placement, first, count);
+        // The rest twist is added to the helix of the filament by `bend`.
+        let model = self.models[i].with_turn(self.filament.monomers.turn_deg.to_radians());
+        let built = model.build(&mut stock.state, &placement, first, count);
         let monomers = built
             .map_err(|error| SceneProblem::new("filament.sections", last, error.to_string()))?;
         for k in 0..count {
@@ -405,6 +407,14 @@ impl<'a> Strand<'a> {
             count: own.count + if goes_on { 2 } else { 0 },
             ..*own
         }
+    }
+
+    /// Turn per monomer (rad) of section `i` and of the next section.
+    pub(super) fn turns(&self, i: usize) -> [f64; 2] {
+        [i, i + 1].map(|k| {
+            let model = self.models.get(k).unwrap_or(&self.models[i]);
+            model.parameters().turn
+        })
     }
 
     pub(super) fn attached(&self) -> usize {

@@ -6,6 +6,8 @@ pub(crate) const FEW_BONDS: &str = "few-bonds";
 pub(crate) const SHORT_ROD: &str = "short-rod";
 /// Segments are so long that bending is inaccurate.
 pub(crate) const LONG_SEGMENTS: &str = "long-segments";
+/// A softened stretch is resolved in part.
+pub(crate) const PARTLY_RESOLVED: &str = "partly-resolved";
 /// Loads act in full along a path that does not set them.
 pub(crate) const PATH_LOADS: &str = "path-loads";
 /// The law of a rod is unsuitable for this scene or agrees with few measured numbers.
@@ -21,10 +23,11 @@ pub(crate) const RESOLUTION: &str = "resolution-not-met";
 
 /// All codes of this crate.
 #[cfg(test)]
-pub(crate) const ALL: [&str; 9] = [
+pub(crate) const ALL: [&str; 10] = [
     FEW_BONDS,
     SHORT_ROD,
     LONG_SEGMENTS,
+    PARTLY_RESOLVED,
     PATH_LOADS,
     ROD_LAW,
     OVERLAP,

@@ -7,9 +7,10 @@
 mod codes;
 mod laws;
 mod mesh;
+mod softened;
 
 use crate::scene::{
-    AdaptiveResolution, Anchors, Monomers, Observable, RodLaw, Scene, Task, unset_loads,
+    AdaptiveResolution, Anchors, Filament, Monomers, Observable, RodLaw, Scene, Task, unset_loads,
 };
 use crate::{Assembly, InterfaceSampling, Rod, SectionChoice};
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
@@ -100,20 +101,18 @@ impl Assembly {
             notes.push(note.to_owned().into());
             notes.extend(self.note_on_short_segments(following).map(Note::from));
         }
-        for filament in self.scene.filaments() {
-            let sections = filament.sections.iter().filter(|s| !s.is_rod());
-            for section in sections {
-                let monomers = section.monomers(&filament.monomers);
-                let few = InterfaceKind::ALL.map(|kind| few_bonds(&monomers, kind));
-                notes.extend(Note::warnings(codes::FEW_BONDS, few.into_iter().flatten()));
-            }
-        }
+        let few = self.scene.filaments().flat_map(few_bonds_of_sections);
+        notes.extend(Note::warnings(codes::FEW_BONDS, few));
         notes.extend(Note::warnings(
             codes::PATH_LOADS,
             loads_along_path(&self.scene),
         ));
         notes.extend(Note::warnings(codes::SHORT_ROD, self.short_rods()));
         notes.extend(Note::warnings(codes::LONG_SEGMENTS, self.long_segments()));
+        notes.extend(Note::warnings(
+            codes::PARTLY_RESOLVED,
+            self.partly_resolved(),
+        ));
         notes.extend(Note::warnings(codes::OVERLAP, self.notes_on_repulsion()));
         notes.extend(Note::warnings(
             codes::ROD_LAW,
@@ -255,6 +254,15 @@ fn loads_along_path(scene: &Scene) -> Option<String> {
         "{which} in full from the start of the path, which sets no loads. To raise a load along the path, add \
          LoadFactor(load: {first}, factor: 1.0) to a stage"
     ))
+}
+
+fn few_bonds_of_sections(filament: &Filament) -> impl Iterator<Item = String> {
+    let sections = filament.sections.iter().filter(|s| !s.is_rod());
+    sections.flat_map(|section| {
+        let monomers = section.monomers(&filament.monomers);
+        let few = InterfaceKind::ALL.map(|kind| few_bonds(&monomers, kind));
+        few.into_iter().flatten()
+    })
 }
 
 fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {

@@ -129,7 +129,8 @@ const STUDIES: [Study; 8] = [
 ];
 
 /// Scenes of measurements without a script, with changes for short runs.
-const MEASURED: [(&str, &[&str]); 8] = [
+const MEASURED: [(&str, &[&str]); 9] = [
+    ("cofilin-heat", &["task.duration_ns=6.0"]),
     ("contraction-network", &["task.duration_ms=0.02"]),
     ("crossed-pair", &["task.duration_ms=0.1"]),
     ("fine-network", &[]),

@@ -36,7 +36,7 @@ pub struct SegmentCurvature {
 pub(crate) struct AdjacentElement {
     pub(crate) frames: [usize; 2],
     pub(crate) element: BendingElement,
-    curvature_difference: Vector3,
+    pub(crate) curvature_difference: Vector3,
     /// Weight in the mean; the weights of a segment sum to 1.
     pub(crate) share: f64,
 }

@@ -12,6 +12,7 @@ mod law;
 mod segments;
 mod twist_stability;
 
+pub(crate) use curvature::AdjacentElement;
 pub use curvature::{JoinedElement, SegmentCurvature};
 pub use end_shear::EndShear;
 pub(crate) use end_twist::EndTwist;

@@ -18,6 +18,8 @@ pub(super) struct JoinedEnd {
     pub(super) end: RodEnd,
     /// Weight in the mean curvature divided by rest distance (1/nm).
     pub(super) share: f64,
+    /// Weighted difference between the rest curvatures of the rod and of the element (rad/nm).
+    pub(super) difference: Vector3,
 }
 
 impl JoinedEnd {
@@ -56,7 +58,7 @@ impl<'a> Ends<'a> {
         for (angle, element) in ends.angles.iter_mut().zip(joined) {
             let [a, b] = element.frames;
             *angle = rotation::log(q.get(a).inverse() * q.get(b));
-            ends.means[element.number()] += element.share * *angle;
+            ends.means[element.number()] += element.share * *angle + element.difference;
         }
         ends
     }

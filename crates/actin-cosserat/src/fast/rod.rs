@@ -2,7 +2,7 @@
 
 use super::ends::{JoinedEnd, MOST_JOINED};
 use super::laws::Law;
-use crate::extended::ExtendedSegments;
+use crate::extended::{AdjacentElement, ExtendedSegments};
 use crate::{RodEnd, RodLayout, SegmentCurvature};
 use actin_mechanics::wide::Arch;
 use actin_mechanics::{Loads, State};
@@ -94,8 +94,7 @@ impl<L: Law> Rod<L> {
             for around in
                 extended.map_or(&[][..], |segments| segments.curvature.adjacent_elements(k))
             {
-                let share = around.share / around.element.rest_distance;
-                rod.add_around(k, layout, around.frames, share)?;
+                rod.add_around(k, layout, around)?;
             }
             let shear = extended.map_or(1.0, |segments| segments.curvature.shear_factor(k));
             if L::COVERS {
@@ -108,13 +107,10 @@ impl<L: Law> Rod<L> {
         (rod.joined.len() <= MOST_JOINED).then_some(rod)
     }
 
-    fn add_around(
-        &mut self,
-        k: usize,
-        layout: &RodLayout,
-        frames: [usize; 2],
-        share: f64,
-    ) -> Option<()> {
+    fn add_around(&mut self, k: usize, layout: &RodLayout, around: &AdjacentElement) -> Option<()> {
+        let frames = around.frames;
+        let share = around.share / around.element.rest_distance;
+        let difference = around.share * around.curvature_difference;
         let frame = layout.frames().start + k;
         let own = |lane: usize| self.bodies.inverse_distances[lane] > 0.0;
         if own(k) && frames == [frame.wrapping_sub(1), frame] {
@@ -128,7 +124,12 @@ impl<L: Law> Rod<L> {
                 [first, _] if first == frame && at(RodEnd::End) => RodEnd::End,
                 _ => return None,
             };
-            self.joined.push(JoinedEnd { frames, end, share });
+            self.joined.push(JoinedEnd {
+                frames,
+                end,
+                share,
+                difference,
+            });
         }
         Some(())
     }

@@ -36,7 +36,7 @@ impl WithSimd for SumSquares<'_> {
                 let distance = simd.sqrt_f64s(wide::dot_add(simd, d, d, zero));
                 let stretch = simd.sub_f64s(distance, length);
                 let weighted = match weights.get(k) {
-                    Some(weight) => simd.mul_f64s(stretch, simd.splat_f64s(*weight)),
+                    Some(lanes) => simd.mul_f64s(stretch, wide::read(simd, lanes, place)),
                     None => stretch,
                 };
                 sum = simd.mul_add_e_f64s(weighted, stretch, sum);

@@ -115,7 +115,7 @@ fn sum_bonds<S: Simd>(
     };
     for (k, record) in records.iter().enumerate() {
         let Ends { a, b, length } = Ends::read(simd, record, place);
-        let weight = weights.get(k).map(|weight| simd.splat_f64s(*weight));
+        let weight = weights.get(k).map(|lanes| wide::read(simd, lanes, place));
         let weighted = |x| weight.map_or(x, |weight| simd.mul_f64s(x, weight));
         let y = wide::mul_add(simd, rotation, b, offset);
         let d = wide::sub(simd, y, a);

@@ -144,7 +144,8 @@ fn loads_do_not_depend_on_the_order_of_quadrature_bonds() {
         let pair = bonds.pairs().iter().find(|pair| pair.kind == kind).unwrap();
         let mut reversed: Vec<Bond> = bonds.bonds_of(pair).collect();
         reversed.reverse();
-        *table = BondTable::shared(table.step, table.pairs, pair.rigidity, &reversed);
+        let empty = BondTable::new(table.step, table.bonds, pair.rigidity, true);
+        *table = empty.shared_by(table.pairs, &reversed);
     }
     let (one, two) = (loads_of(&bonds, &state), loads_of(&other, &state));
     assert!(one != two && difference(&one, &two) < 1e-13);
@@ -167,7 +168,7 @@ fn coincident() -> (State, Bonds) {
     let (_, mut bonds) = run(2, [1, 1]);
     bonds.monomers.first_point = 0;
     bonds.monomers.first_frame = 0;
-    bonds.tables[0] = BondTable::new(1, 1, 3.0);
+    bonds.tables[0] = BondTable::new(1, 1, 3.0, false);
     bonds.tables[0].push(&[Bond {
         lower: Vector3::new(0.5, 0.0, 0.0),
         upper: Vector3::new(-0.5, 0.0, 0.0),
