@@ -45,6 +45,7 @@ _Shape: TypeAlias = Literal["AtRest", "Points"] | Arc | Helix | Points | _Keys
 _ShearLaw: TypeAlias = Cubic | _Keys
 _Side: TypeAlias = Literal["Inside", "Outside"]
 _Slides: TypeAlias = Literal["Nowhere", "AlongAxis", "Freely"]
+_Start: TypeAlias = Run | _Keys
 _StretchLaw: TypeAlias = Constant | Sided | _Keys
 _Task: TypeAlias = Literal["Equilibrium"] | Dynamics | Brownian | Equilibrium | _Keys
 _TwistLaw: TypeAlias = Tanh | TwistLawSided | _Keys
@@ -1366,6 +1367,20 @@ class Rooted(Part):
         slope_nm: _Number,
     ) -> None: ...
 
+class Run(Part):
+    """Last state of a finished run with the same sections, for example to continue an equilibrium as a motion.
+    `Dynamics` after `Dynamics` keeps the velocities. Clamped ends stay where that run left them, and stages
+    move them from there.
+
+    - `directory`: Directory of the run. The path is relative to the scene file, or to the working directory for a scene
+    from standard input.
+    """
+    def __init__(
+        self,
+        *,
+        directory: _Text,
+    ) -> None: ...
+
 class SettingShear(Part):
     """Factor of the strain of the periodic box.
 
@@ -1895,5 +1910,6 @@ class SceneKeys(TypedDict, total=False):
     path: Sequence[Stage | _Keys]
     periodic: PeriodicBox | _Keys | None
     repulsion: Repulsion | _Keys | None
+    start: _Start | None
     task: _Task
     title: _Text
