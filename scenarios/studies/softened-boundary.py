@@ -34,7 +34,7 @@ def largest(points):
 
 
 def peaks(found):
-    """Rows by the resolved part: range of the peaks over those of monomers, and largest distance of the places."""
+    """Rows by the resolved part: range of peaks relative to monomers, and their largest displacement."""
     rows = []
     for kind in found[min(found)]:
         row = [kind]

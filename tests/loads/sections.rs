@@ -213,7 +213,7 @@ fn weight_counts_the_mass_of_sections() {
     );
 }
 
-/// Turn per monomer (deg), the bare one and that of cofilin.
+/// Turn per monomer (deg): bare, with cofilin.
 const TURNS: [f64; 2] = [-360.0 * 12.0 / 26.0, -162.0];
 const RISE: f64 = 71.2 / 26.0;
 

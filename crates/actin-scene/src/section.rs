@@ -62,8 +62,7 @@ pub struct RodChanges {
     /// finite. The radius of curvature is greater than the radius of the filament, 3.5 nm.
     pub rest_curvature_per_nm: [f64; 2],
     /// Rest twist; finite. Together with the rest curvature it defines a helix. The rod is built with this
-    /// twist. A rod of altered monomers has the difference of their `turn_deg` from that of the filament over
-    /// `rise_nm`.
+    /// twist. For altered monomers, it is the change of `turn_deg` over `rise_nm`.
     pub rest_twist_per_nm: f64,
 }
 

@@ -45,7 +45,7 @@ pub(super) fn run(
     let assembly = Assembly::build(&scene)?;
     let plan = Plan::new(&assembly)?;
     let started = Instant::now();
-    // Rates are those of one core.
+    // Rates are per core.
     let (trajectory, _) = on_one_thread(|| plan.run())?;
     let seconds = started.elapsed().as_secs_f64();
     let scale = network.filaments as f64 * scene.thermal_energy_pn_nm();
