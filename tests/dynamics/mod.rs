@@ -24,5 +24,4 @@ mod rest;
 mod short_bonds;
 mod steps;
 mod thermal;
-mod threads;
 mod water;

@@ -179,11 +179,6 @@ impl Components {
         self.of_frames[i].is_none_or(|c| self.has_component(c))
     }
 
-    /// Returns `true` if interaction `k` acts on a single component.
-    pub(crate) fn is_single(&self, k: usize) -> bool {
-        self.of_interactions[k].len() == 1
-    }
-
     pub(crate) fn has_interaction(&self, k: usize) -> bool {
         self.selected.parts[k]
     }
@@ -200,8 +195,7 @@ pub(crate) fn couples_by_distance(interaction: &dyn Interaction) -> bool {
     second_order.is_some_and(SecondOrder::couples_by_distance)
 }
 
-/// Blocks of the stiffness of an interaction.
-pub(crate) fn blocks(interaction: &dyn Interaction, state: &State) -> Stiffness {
+fn blocks(interaction: &dyn Interaction, state: &State) -> Stiffness {
     let mut stiffness = Stiffness::default();
     if let Some(second_order) = interaction.second_order() {
         second_order.add_stiffness(state, &mut stiffness);

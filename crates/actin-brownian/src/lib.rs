@@ -18,7 +18,6 @@ mod flow;
 mod friction;
 mod langevin;
 mod limits;
-mod load_tasks;
 mod progress;
 mod relaxation;
 mod stepper;

@@ -97,11 +97,10 @@ mod stressed;
 
 use crate::components::{Components, couples_by_distance};
 use crate::friction::Velocities;
-use crate::load_tasks::LoadTasks;
 use crate::progress::Progress;
 use crate::stress::Stresses;
 use crate::{Flow, Friction, StepLimits};
-use actin_equilibrium::{ImplicitSolver, Layout, SolveError, StepSize, parallel};
+use actin_equilibrium::{ImplicitSolver, Layout, SolveError, StepSize};
 use actin_integrate::{Body, FailureKind, Noise, StepFailure, Stepper};
 use actin_mechanics::{Coordinates, Loads, Split, State, System, Thermostat, Vector3, rotation};
 use thiserror::Error;
@@ -163,7 +162,6 @@ pub struct Brownian {
     spins: Vec<f64>,
     progress: Progress,
     components: Components,
-    tasks: LoadTasks,
     start: State,
     /// Loads at the start, for the heat.
     before: Loads,
@@ -206,15 +204,13 @@ impl Brownian {
             layout.with_conjugate_gradients()
         });
         solver.factorize((state, &loads), system.interactions(), &friction.times(1.0));
-        let components = Components::new(&solver, system.interactions(), state, &friction);
         let elements = (friction.dashpots.len(), friction.turns.len());
         Ok(Self {
             noise: Noise::with_purpose(PURPOSE, seed, elements),
             stresses,
             has_stress,
             spins: vec![0.0; state.frames.len()],
-            tasks: LoadTasks::new(&components, system.interactions(), state),
-            components,
+            components: Components::new(&solver, system.interactions(), state, &friction),
             progress: Progress::default(),
             axial: Vec::new(),
             velocities: Velocities::zeros(state),
@@ -516,12 +512,7 @@ impl Stepper for Brownian {
         if self.thermal_energy == 0.0 {
             self.step_without_noise(system, 1, h)?;
         } else if self.has_stress {
-            let step = (step, 1);
-            if self.tasks.are_several() {
-                parallel::enter(|| self.step_stressed(system, step, h))?;
-            } else {
-                self.step_stressed(system, step, h)?;
-            }
+            self.step_stressed(system, (step, 1), h)?;
         } else {
             self.step_by_midpoints(system, step, h)?;
         }

@@ -195,17 +195,16 @@ impl Stresses {
         }
     }
 
-    /// Adds the loads of the stresses of interaction `k`, if it has any.
     pub(crate) fn add_loads(
         &self,
-        k: usize,
         interactions: &Interactions,
+        components: &Components,
         (state, loads): (&State, &mut Loads),
     ) {
-        if let Some(part) = self.of_interactions[k] {
-            let (_, range) = &self.parts[part];
+        let parts = self.parts.iter();
+        for (k, range) in parts.filter(|(k, _)| components.has_interaction(*k)) {
             let stresses = &self.turned[range.clone()];
-            of(interactions, k).add_stress_loads(state, stresses, loads);
+            of(interactions, *k).add_stress_loads(state, stresses, loads);
         }
     }
 }

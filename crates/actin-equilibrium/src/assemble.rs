@@ -1,19 +1,19 @@
 //! Assembly of the sparse stiffness.
 
 use crate::chain::Chain;
-use crate::distribution::Distribution;
-use crate::layout::Layout;
-use crate::links::Links;
-use crate::parallel::{self, Task};
+use crate::group::Group;
+use crate::layout::{Layout, Node};
+use crate::links::{Block, LinkBlock, Links};
 use crate::pattern::{BlockPosition, Pattern};
-use crate::target::Target;
 use crate::ties::Ties;
-use actin_mechanics::{Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness};
+use actin_mechanics::{
+    Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
+};
+use nalgebra::{Matrix3x6, Matrix6};
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 /// Matrix as a sum of parts, each of which couples bodies of few components.
-pub trait MatrixParts: Sync {
+pub trait MatrixParts {
     /// Number of parts.
     fn count(&self) -> usize;
 
@@ -53,7 +53,6 @@ pub(crate) struct Assembly {
     linked: Vec<usize>,
     /// Parts of the present solve.
     is_chosen: Vec<bool>,
-    distribution: Distribution,
     pattern: Option<Pattern>,
     pub(crate) values: Vec<f64>,
     ties: Ties,
@@ -119,7 +118,6 @@ impl Assembly {
             self.tie_places.clear();
             self.turning_places.clear();
             self.links.clear();
-            self.distribution = Distribution::new(self.pattern(), &self.starts, layout);
         }
         self.tie_lengths = self.ties.lengths(state);
         let pattern = self
@@ -169,38 +167,31 @@ impl Assembly {
         if self.starts.len() != parts.count() + 1 {
             return false;
         }
-        let starts = &self.starts;
-        let add = |target: &mut Target<'_>, blocks: &mut Stiffness, k: usize| {
-            blocks.clear();
-            parts.add(k, state, blocks);
-            target.add_part(state, blocks, (pattern, [starts[k], starts[k + 1]]))
-        };
-        let mut target = Target::onto(&mut self.values, pattern, layout);
-        target.is_selected = Some(is_selected);
-        let nodes = self
-            .distribution
-            .tasks
-            .iter()
-            .map(|task| task.nodes.clone());
-        let targets = target.split(nodes).collect::<Vec<_>>();
-        let tasks = targets.into_iter().zip(&mut self.distribution.tasks);
-        let unknowns = 3 * is_selected.iter().filter(|selected| **selected).count();
-        let is_same = parallel::map(tasks.collect(), unknowns, |(mut target, task)| {
-            target.clear(task.nodes.clone());
-            let mut own = task.parts.iter().filter(|&&k| is_chosen[k]);
-            own.all(|&k| add(&mut target, &mut task.blocks, k) && task.blocks.links().is_empty())
-        });
-        if is_same.contains(&false) {
-            return false;
+        let ends = pattern.symbolic.col_ptr();
+        for (node, columns) in layout.nodes().map(|(_, range)| range).enumerate() {
+            if is_selected[node] {
+                self.values[ends[columns.start]..ends[columns.end]].fill(0.0);
+            }
         }
-        let mut target = Target::onto(&mut self.values, pattern, layout);
-        target.is_selected = Some(is_selected);
-        for &k in self.distribution.shared.iter().filter(|&&k| is_chosen[k]) {
-            if !add(&mut target, &mut self.blocks, k) {
+        let mut target = Target {
+            is_selected: Some(is_selected),
+            ..Target::onto(&mut self.values, pattern, layout)
+        };
+        for k in (0..parts.count()).filter(|&k| is_chosen[k]) {
+            self.blocks.clear();
+            parts.add(k, state, &mut self.blocks);
+            let (start, end) = (self.starts[k], self.starts[k + 1]);
+            let (blocks, links) = (self.blocks.blocks(), self.blocks.links());
+            if blocks.len() != end[0] - start[0] || !pattern.fits_from(start, &self.blocks) {
                 return false;
             }
+            target.add_all(state, blocks, &pattern.places[start[0]..]);
             if !pattern.has_links {
-                target.add_links(state, self.blocks.links(), (pattern, &mut self.links[k]));
+                target.add_links(state, links, (pattern, &mut self.links[k]));
+            } else if links.len() == end[1] - start[1] {
+                target.add_all(state, links, &pattern.link_places[start[1]..]);
+            } else {
+                return false;
             }
         }
         target.add_turning_of_groups(state, loads);
@@ -292,11 +283,6 @@ impl Assembly {
             .expect("the stiffness has been assembled")
     }
 
-    /// Tasks of ranges of unknowns.
-    pub(crate) fn tasks(&self, columns: &[Range<usize>]) -> Vec<Task> {
-        Task::divide(columns, &self.pattern().tasks)
-    }
-
     pub(crate) fn largest_diagonal(&self) -> f64 {
         // The diagonal entry is the last of its column.
         let ends = &self.pattern().symbolic.col_ptr()[1..];
@@ -362,4 +348,244 @@ impl Assembly {
             block.add_product(v, out, &entry);
         }
     }
+}
+
+struct Target<'a> {
+    values: &'a mut [f64],
+    columns: &'a [usize],
+    layout: &'a Layout,
+    diagonal: &'a [usize],
+    /// Nodes whose columns are assembled; all by default.
+    is_selected: Option<&'a [bool]>,
+}
+
+impl<'a> Target<'a> {
+    fn new(values: &'a mut Vec<f64>, pattern: &'a Pattern, layout: &'a Layout) -> Self {
+        values.clear();
+        values.resize(pattern.symbolic.row_idx().len(), 0.0);
+        Self::onto(values, pattern, layout)
+    }
+
+    fn onto(values: &'a mut [f64], pattern: &'a Pattern, layout: &'a Layout) -> Self {
+        Self {
+            values,
+            columns: pattern.symbolic.col_ptr(),
+            layout,
+            diagonal: &pattern.diagonal,
+            is_selected: None,
+        }
+    }
+
+    fn add_all(&mut self, state: &State, blocks: &[Block], places: &[BlockPosition]) {
+        for (&(a, b, block), &place) in blocks.iter().zip(places) {
+            if self.has(place) {
+                self.add(state, a, b, &block, place);
+            }
+        }
+    }
+
+    /// Adds the blocks that are in the pattern, and replaces `links` by the others.
+    fn add_links(
+        &mut self,
+        state: &State,
+        blocks: &[Block],
+        (pattern, links): (&Pattern, &mut Links),
+    ) {
+        links.update_places(blocks, (pattern, self.layout));
+        links.blocks.clear();
+        for (&(a, b, block), &(_, _, place)) in blocks.iter().zip(&links.places) {
+            match place {
+                Some(place) if self.has(place) => self.add(state, a, b, &block, place),
+                Some(_) => {}
+                None => self.push_block(state, (a, b, block), &mut links.blocks),
+            }
+        }
+    }
+
+    fn push_block(&self, state: &State, (a, b, block): Block, links: &mut Vec<LinkBlock>) {
+        if let (Some(first), Some(second)) = (self.layout.node_of(a), self.layout.node_of(b)) {
+            links.push(LinkBlock {
+                nodes: [first, second],
+                rows: self.layout.range(first),
+                columns: self.layout.range(second),
+                values: self.in_unknowns(state, a, b, &block),
+            });
+        }
+    }
+
+    fn has(&self, place: BlockPosition) -> bool {
+        let node = match place {
+            BlockPosition::Outside => return false,
+            BlockPosition::Diagonal { node, .. } | BlockPosition::Body { node, .. } => node,
+            BlockPosition::Above { column, .. } | BlockPosition::Bodies { column, .. } => column,
+        };
+        self.is_selected.is_none_or(|is_selected| is_selected[node])
+    }
+
+    fn add(
+        &mut self,
+        state: &State,
+        a: Coordinates,
+        b: Coordinates,
+        block: &Matrix3,
+        place: BlockPosition,
+    ) {
+        match place {
+            BlockPosition::Outside => {}
+            BlockPosition::Body { at, .. } => self.add_columns(at, |j| j + 1, block),
+            BlockPosition::Bodies { at, transposed, .. } if transposed => {
+                self.add_columns(at, |_| 3, &block.transpose());
+            }
+            BlockPosition::Bodies { at, .. } => self.add_columns(at, |_| 3, block),
+            BlockPosition::Diagonal { node, twice } => {
+                let block = self.in_unknowns(state, a, b, block);
+                let block = if twice {
+                    block + block.transpose()
+                } else {
+                    block
+                };
+                self.add_diagonal(node, |i, j| block[(i, j)]);
+            }
+            BlockPosition::Above {
+                row,
+                column,
+                local,
+                transposed,
+            } => {
+                let block = self.in_unknowns(state, a, b, block);
+                self.add_above(row, column, local, transposed, |i, j| block[(i, j)]);
+            }
+        }
+    }
+
+    /// Adds the first `rows` of each column.
+    fn add_columns(&mut self, at: [usize; 3], rows: impl Fn(usize) -> usize, block: &Matrix3) {
+        for (j, first) in at.into_iter().enumerate() {
+            let values = &mut self.values[first..first + rows(j)];
+            for (value, entry) in values.iter_mut().zip(block.column(j).iter()) {
+                *value += entry;
+            }
+        }
+    }
+
+    fn add_diagonal(&mut self, node: usize, block: impl Fn(usize, usize) -> f64) {
+        let start = self.diagonal[node];
+        for (j, column) in self.layout.range(node).enumerate() {
+            let first = self.columns[column] + start;
+            for (i, value) in self.values[first..=first + j].iter_mut().enumerate() {
+                *value += block(i, j);
+            }
+        }
+    }
+
+    fn add_above(
+        &mut self,
+        row: usize,
+        column: usize,
+        local: usize,
+        transposed: bool,
+        block: impl Fn(usize, usize) -> f64,
+    ) {
+        let rows = self.layout.range(row).len();
+        for (j, column) in self.layout.range(column).enumerate() {
+            let first = self.columns[column] + local;
+            for (i, value) in self.values[first..first + rows].iter_mut().enumerate() {
+                *value += if transposed { block(j, i) } else { block(i, j) };
+            }
+        }
+    }
+
+    /// `A^T block B` with the derivatives `A`, `B` with respect to the unknowns.
+    fn in_unknowns(
+        &self,
+        state: &State,
+        a: Coordinates,
+        b: Coordinates,
+        block: &Matrix3,
+    ) -> Matrix6<f64> {
+        if [a, b].into_iter().all(|body| self.is_single(body)) {
+            return block.fixed_resize(0.0);
+        }
+        let a = self.derivative(state, a);
+        let b = self.derivative(state, b);
+        a.transpose() * (block * b)
+    }
+
+    fn is_single(&self, body: Coordinates) -> bool {
+        let node = self.layout.node_of(body).map(|node| self.layout.node(node));
+        !matches!(node, Some(Node::Group(_)))
+    }
+
+    /// Zero padded.
+    fn derivative(&self, state: &State, body: Coordinates) -> Matrix3x6<f64> {
+        let mut derivative = Matrix3x6::zeros();
+        let node = self.layout.node_of(body).map(|node| self.layout.node(node));
+        let Some(Node::Group(g)) = node else {
+            derivative.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(1.0);
+            return derivative;
+        };
+        let group = &self.layout.groups()[g];
+        for (k, column) in columns_of(group, state, body).enumerate() {
+            derivative.set_column(k, &column);
+        }
+        derivative
+    }
+
+    /// Second derivative of a rotated point `x = p + exp(theta) r` times its force:
+    ///
+    /// `d^2 x . g = (theta . g)(theta . r) - theta^2 (g . r)` with `g = -force`. Frames have no
+    /// such term.
+    fn add_turning_of_groups(&mut self, state: &State, loads: &Loads) {
+        let layout = self.layout;
+        for k in 0..layout.len() {
+            let Node::Group(g) = layout.node(k) else {
+                continue;
+            };
+            let group = &layout.groups()[g];
+            let is_left_out = self.is_selected.is_some_and(|is_selected| !is_selected[k]);
+            if group.rotations.is_empty() || is_left_out {
+                continue;
+            }
+            let curvature = turning(group, state, loads);
+            let skip = group.translations.len();
+            self.add_diagonal(k, |i, j| {
+                if i < skip || j < skip {
+                    return 0.0;
+                }
+                let (a, b) = (group.rotations[i - skip], group.rotations[j - skip]);
+                a.dot(&(curvature * b))
+            });
+        }
+    }
+}
+
+/// `sum (g r^T + r g^T) / 2 - (g . r) I` over the points of a group.
+fn turning(group: &Group, state: &State, loads: &Loads) -> Matrix3 {
+    let pivot = group.pivot.position(state);
+    group
+        .points
+        .iter()
+        .map(|&i| {
+            let r = state.points.position.get(i) - pivot;
+            let g = -loads.force.get(i);
+            0.5 * (g * r.transpose() + r * g.transpose()) - Matrix3::identity() * g.dot(&r)
+        })
+        .sum()
+}
+
+fn columns_of<'a>(
+    group: &'a Group,
+    state: &'a State,
+    body: Coordinates,
+) -> impl Iterator<Item = Vector3> + 'a {
+    let pivot = group.pivot.position(state);
+    let along = group.translations.iter().map(move |&d| match body {
+        Coordinates::Point(_) => d,
+        Coordinates::Frame(_) => Vector3::zeros(),
+    });
+    let about = group.rotations.iter().map(move |axis| match body {
+        Coordinates::Point(i) => axis.cross(&(state.points.position.get(i) - pivot)),
+        Coordinates::Frame(i) => state.frames.orientation.get(i).inverse() * axis,
+    });
+    along.chain(about)
 }

@@ -5,7 +5,6 @@
     reason = "vector code must be compiled into the function that enables the instructions"
 )]
 
-use crate::parallel::Task;
 use actin_mechanics::wide::{Simd, WithSimd};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::cholesky::simplicial::SymbolicSimplicialCholesky;
@@ -61,24 +60,15 @@ impl Band {
         &self.blocks[first..last]
     }
 
-    /// Entries of a range of columns.
-    pub(crate) fn entries(&self, columns: &Range<usize>) -> Range<usize> {
-        self.starts[columns.start]..self.starts[columns.end]
-    }
-
-    /// Copies a matrix to the entries of a task.
     pub(crate) fn place(
         &self,
         upper: SymbolicSparseColMatRef<'_, usize>,
         matrix: &[f64],
         values: &mut [f64],
-        task: &Task,
+        ranges: &[Range<usize>],
     ) {
-        let first = self.entries(&task.hull()).start;
-        let ranges = task.ranges();
         for range in ranges {
-            let entries = self.entries(range);
-            values[entries.start - first..entries.end - first].fill(0.0);
+            values[self.starts[range.start]..self.starts[range.end]].fill(0.0);
         }
         for column in ranges.iter().cloned().flatten() {
             let entries = upper.col_ptr()[column]..upper.col_ptr()[column + 1];
@@ -86,7 +76,7 @@ impl Band {
                 .iter()
                 .zip(&matrix[entries])
             {
-                values[self.starts[row] - first + column - row] = *value;
+                values[self.starts[row] + column - row] = *value;
             }
         }
     }
@@ -94,11 +84,10 @@ impl Band {
 
 pub(crate) struct Eliminate<'a> {
     pub(crate) band: &'a Band,
-    /// Entries of the hull of the task.
     pub(crate) values: &'a mut [f64],
     pub(crate) least: f64,
-    /// Unknowns to eliminate; whole panels.
-    pub(crate) task: &'a Task,
+    /// Unknowns to eliminate (ascending); whole panels.
+    pub(crate) ranges: &'a [Range<usize>],
 }
 
 impl WithSimd for Eliminate<'_> {
@@ -106,21 +95,20 @@ impl WithSimd for Eliminate<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let first = self.band.entries(&self.task.hull()).start;
-        let start = |column: usize| self.band.starts[column] - first;
-        let panels = self.task.ranges().iter().flat_map(|range| {
+        let starts = &self.band.starts;
+        let panels = self.ranges.iter().flat_map(|range| {
             let panels = &self.band.panels;
             let first = panels.partition_point(|(panel, _)| panel.start < range.start);
             let last = panels.partition_point(|(panel, _)| panel.start < range.end);
             &panels[first..last]
         });
         for (panel, end) in panels {
-            let (head, right) = self.values.split_at_mut(start(panel.end));
-            let own = &mut head[start(panel.start)..];
+            let (head, right) = self.values.split_at_mut(starts[panel.end]);
+            let own = &mut head[starts[panel.start]..];
             let shape = (end - panel.start, panel.len());
             let reciprocals = eliminate_panel(own, shape, self.least);
             for column in panel.end..*end {
-                let first = start(column) - start(panel.end);
+                let first = starts[column] - starts[panel.end];
                 let target = &mut right[first..first + end - column];
                 subtract_panel(target, own, shape, &reciprocals);
             }
@@ -129,13 +117,12 @@ impl WithSimd for Eliminate<'_> {
     }
 }
 
-/// Solves for the unknowns of a task.
+/// Solves for the ranges of unknowns, each of which is not coupled to others.
 pub(crate) struct Solve<'a> {
     pub(crate) band: &'a Band,
     pub(crate) values: &'a [f64],
-    /// Unknowns of the hull of the task.
     pub(crate) b: &'a mut [f64],
-    pub(crate) task: &'a Task,
+    pub(crate) ranges: &'a [Range<usize>],
 }
 
 impl WithSimd for Solve<'_> {
@@ -147,25 +134,21 @@ impl WithSimd for Solve<'_> {
             band,
             values,
             b,
-            task,
+            ranges,
         } = self;
-        let first = task.hull().start;
         let column = |k: usize| &values[band.starts[k]..band.starts[k + 1]];
-        let blocks = (task.ranges().iter()).flat_map(|range| band.blocks_in(range));
+        let blocks = ranges.iter().flat_map(|range| band.blocks_in(range));
         let blocks: Vec<_> = blocks.cloned().collect();
         for equal in blocks.chunk_by(|a, b| a.len() == b.len()) {
             for abreast in equal.chunks(ABREAST) {
                 for k in 0..abreast[0].len() {
                     for block in abreast {
-                        subtract_column(column(block.start + k), &mut b[block.start - first + k..]);
+                        subtract_column(column(block.start + k), &mut b[block.start + k..]);
                     }
                 }
                 for k in (0..abreast[0].len()).rev() {
                     for block in abreast {
-                        divide_and_subtract(
-                            column(block.start + k),
-                            &mut b[block.start - first + k..],
-                        );
+                        divide_and_subtract(column(block.start + k), &mut b[block.start + k..]);
                     }
                 }
             }

@@ -8,13 +8,13 @@
 //! 11.4; faer, `sparse::linalg::cholesky::simplicial`.
 
 use crate::band::{Band, Eliminate, Solve};
-use crate::parallel::{self, Task};
 use actin_mechanics::wide;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::sparse::linalg::cholesky::simplicial;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par};
+use std::ops::Range;
 
 /// A pivot within this many roundings of its diagonal entry is doubtful.
 const PIVOT_ROUNDINGS: f64 = 8.0;
@@ -117,15 +117,16 @@ impl Factor {
         self.factorize_shifted(upper, metric, shift)
     }
 
-    /// Factorises the columns `changed`. Returns the inertia of the columns `all`.
-    pub(crate) fn factorize_tasks(
+    /// Factorises the ranges `changed` of columns, which are not coupled to others. Returns the
+    /// inertia of the ranges `all`.
+    pub(crate) fn factorize_columns(
         &mut self,
         upper: SymbolicSparseColMatRef<'_, usize>,
         values: &[f64],
-        (changed, all): (&[Task], &[Task]),
+        (changed, all): (&[Range<usize>], &[Range<usize>]),
     ) -> Inertia {
         self.diagonal.resize(upper.ncols(), 0.0);
-        for column in columns(changed) {
+        for column in changed.iter().cloned().flatten() {
             self.diagonal[column] = values[upper.col_ptr()[column + 1] - 1].abs();
         }
         self.eliminate(upper, values, changed);
@@ -160,11 +161,11 @@ impl Factor {
         let ends = &upper.col_ptr()[1..];
         self.diagonal
             .extend(ends.iter().map(|&end| self.shifted[end - 1].abs()));
-        let all = Task::divide(&[0..upper.ncols()], &[0]);
+        let all = 0..upper.ncols();
         let shifted = std::mem::take(&mut self.shifted);
-        self.eliminate(upper, &shifted, &all);
+        self.eliminate(upper, &shifted, std::slice::from_ref(&all));
         self.shifted = shifted;
-        self.inertia(&all)
+        self.inertia(&[all])
     }
 
     /// Factorises `matrix`. Only columns of a band can be selected; else all are factorised.
@@ -172,27 +173,20 @@ impl Factor {
         &mut self,
         upper: SymbolicSparseColMatRef<'_, usize>,
         matrix: &[f64],
-        tasks: &[Task],
+        ranges: &[Range<usize>],
     ) {
         let largest = self.largest_diagonal();
         let least = (f64::EPSILON * largest).max(f64::MIN_POSITIVE);
         self.least = least;
         if let Some(band) = &self.band {
-            let entries = tasks.iter().map(|task| band.entries(&task.hull()));
-            let values = parallel::slices(&mut self.values, entries);
-            parallel::map(
-                tasks.iter().zip(values).collect(),
-                Task::unknowns(tasks),
-                |(task, values)| {
-                    band.place(upper, matrix, values, task);
-                    wide::dispatch(Eliminate {
-                        band,
-                        values,
-                        least,
-                        task,
-                    });
-                },
-            );
+            band.place(upper, matrix, &mut self.values, ranges);
+            let values = &mut self.values;
+            wide::dispatch(Eliminate {
+                band,
+                values,
+                least,
+                ranges,
+            });
         } else {
             self.eliminate_with_gaps(upper, matrix, least);
         }
@@ -223,9 +217,9 @@ impl Factor {
     }
 
     /// Pivots equal to `least` replace zeros.
-    fn inertia(&self, tasks: &[Task]) -> Inertia {
+    fn inertia(&self, ranges: &[Range<usize>]) -> Inertia {
         let mut inertia = Inertia::default();
-        for column in columns(tasks) {
+        for column in ranges.iter().cloned().flatten() {
             let pivot = self.pivot(column);
             let rounding = PIVOT_ROUNDINGS * f64::EPSILON * self.diagonal[column];
             inertia.negative += usize::from(pivot < 0.0);
@@ -243,8 +237,11 @@ impl Factor {
     }
 
     /// Columns with pivots not positive beyond rounding.
-    pub(crate) fn indefinite_columns(&self, tasks: &[Task]) -> impl Iterator<Item = usize> {
-        columns(tasks).filter(|&column| {
+    pub(crate) fn indefinite_columns(
+        &self,
+        ranges: &[Range<usize>],
+    ) -> impl Iterator<Item = usize> {
+        ranges.iter().cloned().flatten().filter(|&column| {
             let rounding = PIVOT_ROUNDINGS * f64::EPSILON * self.diagonal[column];
             let pivot = self.pivot(column);
             pivot <= rounding || pivot.is_nan()
@@ -265,25 +262,17 @@ impl Factor {
         );
     }
 
-    /// Solves for the unknowns of tasks; without a band for all unknowns.
-    pub(crate) fn solve_tasks(&mut self, b: &mut [f64], tasks: &[Task]) {
-        let Some(band) = &self.band else {
-            return self.solve(b);
-        };
-        let values = &self.values;
-        let own = parallel::slices(b, tasks.iter().map(Task::hull));
-        parallel::map(
-            tasks.iter().zip(own).collect(),
-            Task::unknowns(tasks),
-            |(task, b)| {
-                wide::dispatch(Solve {
-                    band,
-                    values,
-                    b,
-                    task,
-                });
-            },
-        );
+    /// Solves for the ranges of unknowns, which are not coupled to others.
+    pub(crate) fn solve_columns(&mut self, b: &mut [f64], ranges: &[Range<usize>]) {
+        match &self.band {
+            Some(band) => wide::dispatch(Solve {
+                band,
+                values: &self.values,
+                b,
+                ranges,
+            }),
+            None => self.solve(b),
+        }
     }
 
     /// Solves `L^T x = |D|^(-1/2) b`: white noise `b` gives the covariance `(L |D| L^T)^(-1)`.
@@ -360,11 +349,4 @@ impl Factor {
         let norm: f64 = z.iter().zip(metric).map(|(z, m)| m * z * z).sum();
         Some(self.pivot(last) / norm)
     }
-}
-
-/// Columns of all tasks.
-fn columns(tasks: &[Task]) -> impl Iterator<Item = usize> {
-    tasks
-        .iter()
-        .flat_map(|task| task.ranges().iter().cloned().flatten())
 }

@@ -10,7 +10,6 @@
 use crate::assemble::Assembly;
 use crate::band::dot;
 use crate::factor::Factor;
-use crate::parallel::Task;
 use std::ops::Range;
 
 const MOST_ITERATIONS: usize = 500;
@@ -19,7 +18,7 @@ const MOST_ITERATIONS: usize = 500;
 pub(crate) struct Gradients {
     factor: Factor,
     /// Unknowns of the solve; others are held.
-    tasks: Vec<Task>,
+    columns: Vec<Range<usize>>,
     residual: Vec<f64>,
     preconditioned: Vec<f64>,
     direction: Vec<f64>,
@@ -35,7 +34,7 @@ impl Gradients {
         let zeros = vec![0.0; symbolic.ncols()];
         Self {
             factor: Factor::new(symbolic),
-            tasks: Vec::new(),
+            columns: Vec::new(),
             residual: zeros.clone(),
             preconditioned: zeros.clone(),
             direction: zeros.clone(),
@@ -44,27 +43,30 @@ impl Gradients {
         }
     }
 
-    /// Factorises the components with the unknowns `tasks`; other unknowns are held.
-    pub(crate) fn factorize(&mut self, assembly: &Assembly, tasks: Vec<Task>) -> bool {
-        self.tasks.clone_from(&tasks);
-        self.refactorize(assembly, &tasks)
+    /// Factorises the components with the unknowns `columns`; other unknowns are held.
+    pub(crate) fn factorize(&mut self, assembly: &Assembly, columns: Vec<Range<usize>>) -> bool {
+        self.columns = columns;
+        let changed = self.columns.clone();
+        self.refactorize(assembly, &changed)
     }
 
     /// Factorises again the components with the unknowns `changed`.
-    pub(crate) fn refactorize(&mut self, assembly: &Assembly, changed: &[Task]) -> bool {
+    pub(crate) fn refactorize(&mut self, assembly: &Assembly, changed: &[Range<usize>]) -> bool {
         let upper = assembly.pattern().symbolic.as_ref();
-        let tasks = (changed, self.tasks.as_slice());
-        let inertia = self.factor.factorize_tasks(upper, &assembly.values, tasks);
+        let columns = (changed, self.columns.as_slice());
+        let inertia = self
+            .factor
+            .factorize_columns(upper, &assembly.values, columns);
         inertia.is_positive()
     }
 
-    /// Solves with the last factors of the chains of `tasks`, without links.
-    pub(crate) fn solve_chains(&mut self, b: &mut [f64], tasks: &[Task]) {
-        self.factor.solve_tasks(b, tasks);
+    /// Solves with the last factors of the chains of `columns`, without links.
+    pub(crate) fn solve_chains(&mut self, b: &mut [f64], columns: &[Range<usize>]) {
+        self.factor.solve_columns(b, columns);
     }
 
     pub(crate) fn indefinite_columns(&self) -> Vec<usize> {
-        self.factor.indefinite_columns(&self.tasks).collect()
+        self.factor.indefinite_columns(&self.columns).collect()
     }
 
     /// Contributions of the unknowns to the curvature along the last search direction.
@@ -79,32 +81,32 @@ impl Gradients {
     /// With the matrix `M` of the chains, `M z = r` for the preconditioned residual `z`. The
     /// product of `M` and the direction follows the recurrence of the direction.
     pub(crate) fn solve(&mut self, assembly: &Assembly, b: &mut [f64], tolerance: f64) -> bool {
-        let tasks = std::mem::take(&mut self.tasks);
-        let is_solved = self.solve_tasks(assembly, b, tolerance, &tasks);
-        self.tasks = tasks;
+        let columns = std::mem::take(&mut self.columns);
+        let is_solved = self.solve_columns(assembly, b, tolerance, &columns);
+        self.columns = columns;
         is_solved
     }
 
-    fn solve_tasks(
+    fn solve_columns(
         &mut self,
         assembly: &Assembly,
         b: &mut [f64],
         tolerance: f64,
-        tasks: &[Task],
+        columns: &[Range<usize>],
     ) -> bool {
-        self.begin(b, tasks);
-        let mut size = self.precondition(tasks);
+        self.begin(b, columns);
+        let mut size = self.precondition(columns);
         let enough = size * tolerance * tolerance;
         let mut ratio = 0.0;
         for iteration in 0..MOST_ITERATIONS {
-            for columns in unknowns(tasks) {
+            for columns in columns.iter().cloned() {
                 let new = &self.preconditioned[columns.clone()];
                 scale_and_add(&mut self.direction[columns.clone()], ratio, new);
                 let new = &self.residual[columns.clone()];
                 scale_and_add(&mut self.of_chains[columns], ratio, new);
             }
-            self.multiply(assembly, tasks);
-            let curvature = dot_in(tasks, &self.direction, &self.product);
+            self.multiply(assembly, columns);
+            let curvature = dot_in(columns, &self.direction, &self.product);
             if curvature <= 0.0 || size <= 0.0 || curvature.is_nan() || size.is_nan() {
                 if iteration == 0 {
                     b.copy_from_slice(&self.direction);
@@ -112,7 +114,7 @@ impl Gradients {
                 return size == 0.0;
             }
             let length = size / curvature;
-            for columns in unknowns(tasks) {
+            for columns in columns.iter().cloned() {
                 add(
                     &mut b[columns.clone()],
                     length,
@@ -121,7 +123,7 @@ impl Gradients {
                 let product = &self.product[columns.clone()];
                 add(&mut self.residual[columns], -length, product);
             }
-            let next = self.precondition(tasks);
+            let next = self.precondition(columns);
             if (0.0..=enough).contains(&next) {
                 return true;
             }
@@ -132,40 +134,36 @@ impl Gradients {
     }
 
     /// Moves `b` to the residual.
-    fn begin(&mut self, b: &mut [f64], tasks: &[Task]) {
+    fn begin(&mut self, b: &mut [f64], columns: &[Range<usize>]) {
         for vector in [&mut self.residual, &mut self.direction, &mut self.product] {
             vector.fill(0.0);
         }
-        for columns in unknowns(tasks) {
+        for columns in columns.iter().cloned() {
             self.residual[columns.clone()].copy_from_slice(&b[columns]);
         }
         b.fill(0.0);
     }
 
     /// Returns the squared norm of the preconditioned residual.
-    fn precondition(&mut self, tasks: &[Task]) -> f64 {
-        for columns in unknowns(tasks) {
+    fn precondition(&mut self, columns: &[Range<usize>]) -> f64 {
+        for columns in columns.iter().cloned() {
             self.preconditioned[columns.clone()].copy_from_slice(&self.residual[columns]);
         }
-        self.factor.solve_tasks(&mut self.preconditioned, tasks);
-        dot_in(tasks, &self.residual, &self.preconditioned)
+        self.factor.solve_columns(&mut self.preconditioned, columns);
+        dot_in(columns, &self.residual, &self.preconditioned)
     }
 
-    fn multiply(&mut self, assembly: &Assembly, tasks: &[Task]) {
-        for columns in unknowns(tasks) {
+    fn multiply(&mut self, assembly: &Assembly, columns: &[Range<usize>]) {
+        for columns in columns.iter().cloned() {
             self.product[columns.clone()].copy_from_slice(&self.of_chains[columns]);
         }
         assembly.add_product_of_links(&self.direction, &mut self.product);
     }
 }
 
-fn unknowns(tasks: &[Task]) -> impl Iterator<Item = Range<usize>> {
-    tasks.iter().flat_map(|task| task.ranges().iter().cloned())
-}
-
-fn dot_in(tasks: &[Task], a: &[f64], b: &[f64]) -> f64 {
-    let dots = unknowns(tasks).map(|range| dot(&a[range.clone()], &b[range]));
-    dots.sum()
+fn dot_in(columns: &[Range<usize>], a: &[f64], b: &[f64]) -> f64 {
+    let columns = columns.iter().cloned();
+    columns.map(|range| dot(&a[range.clone()], &b[range])).sum()
 }
 
 /// `to = factor to + new`.
@@ -189,6 +187,7 @@ mod tests {
     use actin_mechanics::{
         Coordinates, Loads, Matrix3, Point, SecondOrder, State, Stiffness, Vector3,
     };
+    use std::iter;
 
     /// Two chains of ten points with soft springs across, and friction.
     struct Ladder;
@@ -256,7 +255,7 @@ mod tests {
         assert!(iterative.values.len() < direct.values.len());
         let unknowns = layout.unknowns();
         let mut gradients = Gradients::new(&iterative);
-        assert!(gradients.factorize(&iterative, Task::divide(&[0..unknowns], &[0])));
+        assert!(gradients.factorize(&iterative, iter::once(0..unknowns).collect()));
         let mut found: Vec<f64> = (0..unknowns).map(|i| (i as f64).sin()).collect();
         let load = by_points(&layout, &found);
         assert!(gradients.solve(&iterative, &mut found, 1e-12));

@@ -8,10 +8,10 @@ use crate::gradients::Gradients;
 use crate::layout::{Layout, Node};
 use crate::motion::{ComponentStep, StepSize};
 use crate::outcome::SolveError;
-use crate::parallel::Task;
 use actin_mechanics::{
     Approach, Coordinates, Interaction, Loads, SecondOrder, State, UnitQuaternion, Vectors,
 };
+use std::ops::Range;
 
 /// Solver for the linear equations of implicit time steps.
 ///
@@ -134,14 +134,14 @@ impl ImplicitSolver {
         if is_new {
             self.begin_pattern();
         }
-        let tasks = match selection {
-            Some(selection) if !is_new => self.tasks(selection.components),
-            _ => self.assembly.tasks(&[0..self.layout.unknowns()]),
+        let columns = match selection {
+            Some(selection) if !is_new => self.clusters.columns(&self.layout, selection.components),
+            _ => std::iter::once(0..self.layout.unknowns()).collect(),
         };
         let assembly = &self.assembly;
         match &mut self.linear {
             Linear::Unknown => unreachable!("the pattern is new at the first factorisation"),
-            Linear::Gradients(gradients) => gradients.factorize(assembly, tasks),
+            Linear::Gradients(gradients) => gradients.factorize(assembly, columns),
             Linear::Direct(factor) => is_positive(factor, assembly, &self.metric),
         }
     }
@@ -162,10 +162,10 @@ impl ImplicitSolver {
             .assembly
             .update_nodes(parts_of, &nodes, at, &self.layout);
         assert!(is_same, "changes of parts do not change the pattern");
-        let tasks = self.tasks(changed.components);
+        let columns = self.clusters.columns(&self.layout, changed.components);
         match &mut self.linear {
             Linear::Unknown => panic!("no matrix has been factorised"),
-            Linear::Gradients(gradients) => gradients.refactorize(&self.assembly, &tasks),
+            Linear::Gradients(gradients) => gradients.refactorize(&self.assembly, &columns),
             Linear::Direct(factor) => is_positive(factor, &self.assembly, &self.metric),
         }
     }
@@ -176,12 +176,6 @@ impl ImplicitSolver {
         };
         let of_nodes = self.clusters.of_nodes();
         of_nodes.iter().map(|&c| selection.components[c]).collect()
-    }
-
-    /// Unknowns of the selected components.
-    fn tasks(&self, is_selected: &[bool]) -> Vec<Task> {
-        let columns = self.clusters.columns(&self.layout, is_selected);
-        self.assembly.tasks(&columns)
     }
 
     fn begin_pattern(&mut self) {
@@ -208,8 +202,8 @@ impl ImplicitSolver {
         self.layout.reduce(state, loads, &mut self.loads);
         self.step.clone_from(&self.loads);
         let is_selected: Vec<bool> = (0..self.components()).map(is_selected).collect();
-        let tasks = self.tasks(&is_selected);
-        self.linear.precondition(&mut self.step, &tasks);
+        let columns = self.clusters.columns(&self.layout, &is_selected);
+        self.linear.precondition(&mut self.step, &columns);
         let products = self.loads.iter().zip(&self.step);
         let halves: Vec<f64> = products.map(|(f, p)| 0.5 * f * p).collect();
         self.clusters.sums(&self.layout, &halves)
@@ -417,10 +411,10 @@ impl ImplicitSolver {
 }
 
 impl Linear {
-    fn precondition(&mut self, b: &mut [f64], tasks: &[Task]) {
+    fn precondition(&mut self, b: &mut [f64], columns: &[Range<usize>]) {
         match self {
             Self::Unknown => panic!("no matrix has been factorised"),
-            Self::Gradients(gradients) => gradients.solve_chains(b, tasks),
+            Self::Gradients(gradients) => gradients.solve_chains(b, columns),
             Self::Direct(factor) => factor.solve(b),
         }
     }

@@ -2,7 +2,6 @@
 //! columns with sorted rows.
 
 use crate::layout::{GradientUse, Layout, Node, Order};
-use crate::parallel::TASK;
 use actin_mechanics::{Coordinates, Matrix3, Stiffness};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
@@ -38,17 +37,6 @@ pub(crate) enum BlockPosition {
     },
 }
 
-impl BlockPosition {
-    /// Node whose columns contain the block.
-    pub(crate) fn column_node(self) -> Option<usize> {
-        match self {
-            Self::Outside => None,
-            Self::Diagonal { node, .. } | Self::Body { node, .. } => Some(node),
-            Self::Above { column, .. } | Self::Bodies { column, .. } => Some(column),
-        }
-    }
-}
-
 /// Sparsity of a stiffness with the position of each block.
 #[derive(Debug)]
 pub(crate) struct Pattern {
@@ -60,8 +48,6 @@ pub(crate) struct Pattern {
     pub(crate) has_links: bool,
     /// First diagonal row within the columns of each node.
     pub(crate) diagonal: Vec<usize>,
-    /// First columns of tasks, whose columns are not coupled to each other.
-    pub(crate) tasks: Vec<usize>,
     bodies: Vec<Pair>,
     link_bodies: Vec<Pair>,
     neighbours: Vec<Vec<usize>>,
@@ -98,7 +84,6 @@ impl Pattern {
             bodies: bodies(stiffness.blocks()),
             link_bodies: bodies(links),
             has_links: !layout.has_gradients(),
-            tasks: tasks(symbolic.as_ref()),
             symbolic,
             neighbours,
             starts,
@@ -319,22 +304,6 @@ fn running_sum(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
         sums.push(sums[sums.len() - 1] + length);
     }
     sums
-}
-
-/// First columns of uncoupled tasks of at least [`TASK`] columns.
-fn tasks(upper: SymbolicSparseColMatRef<'_, usize>) -> Vec<usize> {
-    let n = upper.ncols();
-    let first_row = |column: usize| upper.row_idx()[upper.col_ptr()[column]];
-    let (mut starts, mut lowest) = (Vec::new(), n);
-    for column in (0..n).rev() {
-        lowest = lowest.min(first_row(column));
-        let next = starts.last().copied().unwrap_or(n);
-        if column == 0 || lowest == column && next - column >= TASK {
-            starts.push(column);
-        }
-    }
-    starts.reverse();
-    starts
 }
 
 /// Half the sum of the squared column counts of the factor.

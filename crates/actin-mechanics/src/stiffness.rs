@@ -93,7 +93,7 @@ impl Stiffness {
 ///
 /// With the orientation `Q exp(phi)`, the diagonal block `K` at `phi = 0` is symmetric. The
 /// derivative of the body torque `tau` with respect to `phi` is `-(K - [tau]x / 2)`.
-pub trait SecondOrder: Sync {
+pub trait SecondOrder {
     /// Adds the second derivatives of the energy at `state`, including the geometric stiffness.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness);
 

@@ -209,21 +209,6 @@ impl System {
     /// If the numbers of bodies have changed since construction, or if the state violates the
     /// conditions of [`new`](Self::new).
     pub fn loads(&mut self) -> &Loads {
-        self.loads_by(|interactions, state, loads| {
-            for interaction in interactions {
-                interaction.add_loads(state, loads);
-            }
-        })
-    }
-
-    /// As [`loads`](Self::loads), where `add` adds the loads of all interactions.
-    ///
-    /// # Panics
-    /// As [`loads`](Self::loads).
-    pub fn loads_by(
-        &mut self,
-        add: impl FnOnce(&[Box<dyn Interaction>], &State, &mut Loads),
-    ) -> &Loads {
         if !self.loads_are_current {
             if self.changed_outside {
                 self.assert_same_bodies();
@@ -232,8 +217,8 @@ impl System {
             self.loads.clear();
             for interaction in self.interactions.iter() {
                 interaction.count_turns(&mut self.state);
+                interaction.add_loads(&self.state, &mut self.loads);
             }
-            add(&self.interactions, &self.state, &mut self.loads);
             self.force_evaluations += 1;
             self.loads_are_current = true;
         }

@@ -6,7 +6,6 @@ use crate::summary::summary;
 use crate::table::{Row, Table};
 use crate::{SweepDirectory, SweepError, ValidatedSweep};
 use actin_rundir::RunDirectory;
-use actin_rundir::sim::equilibrium::parallel::on_one_thread;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -142,13 +141,9 @@ struct WorkerPool<'a> {
 
 impl WorkerPool<'_> {
     fn make_all(self, report: &(impl Fn(usize) + Sync)) -> Result<usize, SweepError> {
-        let threads = threads(self.settings).min(self.left.len());
         std::thread::scope(|scope| {
-            for _ in 0..threads {
-                scope.spawn(|| match threads {
-                    1 => self.work(report),
-                    _ => on_one_thread(|| self.work(report)),
-                });
+            for _ in 0..threads(self.settings).min(self.left.len()) {
+                scope.spawn(|| self.work(report));
             }
         });
         let error = self.error.into_inner();

@@ -2,12 +2,11 @@
 
 use super::{Brownian, LARGEST_TURN, spin};
 use crate::components::{Components, Subset};
-use crate::load_tasks::LoadTasks;
 use crate::progress::Progress;
 use crate::stress::StepMatrix;
 use actin_equilibrium::{ComponentStep, StepSize};
 use actin_integrate::StepFailure;
-use actin_mechanics::{Loads, System};
+use actin_mechanics::System;
 
 /// Initial iterations of all components.
 const FULL_ITERATIONS: usize = 2;
@@ -95,7 +94,6 @@ impl Brownian {
         if has_changed {
             let (interactions, state) = (system.interactions(), system.state());
             self.components = Components::new(&self.solver, interactions, state, &self.friction);
-            self.tasks = LoadTasks::new(&self.components, interactions, state);
             self.begin_iterations();
         }
         has_changed
@@ -130,25 +128,18 @@ impl Brownian {
         self.components.select(selected);
     }
 
-    fn find_loads(&mut self, system: &mut System) {
-        let (tasks, components) = (&mut self.tasks, &self.components);
-        if components.selection().is_none() {
-            let loads = system.loads_by(|interactions, state, loads| {
-                let add = |k: usize, loads: &mut Loads| interactions[k].add_loads(state, loads);
-                tasks.add(loads, |_| true, add);
-            });
-            self.loads.clone_from(loads);
-            return;
-        }
-        self.loads.clear();
-        let (state, interactions) = (system.state(), system.interactions());
-        let add = |k: usize, loads: &mut Loads| interactions[k].add_loads(state, loads);
-        tasks.add(&mut self.loads, |k| components.has_interaction(k), add);
-    }
-
     /// Finds the unbalanced loads of the selected components.
     fn find_residual(&mut self, system: &mut System, h: f64) {
-        self.find_loads(system);
+        if self.components.selection().is_none() {
+            self.loads.clone_from(system.loads());
+        } else {
+            self.loads.clear();
+            for (k, interaction) in system.interactions().iter().enumerate() {
+                if self.components.has_interaction(k) {
+                    interaction.add_loads(system.state(), &mut self.loads);
+                }
+            }
+        }
         let (state, interactions) = (system.state(), system.interactions());
         self.find_middle(state);
         self.find_velocities(state, h, 0.5);
@@ -159,12 +150,9 @@ impl Brownian {
         self.stresses
             .turn_back(interactions, components, &self.spins);
         self.residual.clone_from(&self.loads);
-        let (residual, stresses) = (&mut self.residual, &self.stresses);
-        self.tasks.add(
-            residual,
-            |k| components.has_interaction(k),
-            |k, loads| stresses.add_loads(k, interactions, (state, loads)),
-        );
+        let residual = &mut self.residual;
+        self.stresses
+            .add_loads(interactions, components, (state, residual));
         residual.add(&self.random);
         let at = (&self.middle, &self.velocities);
         let has_frame = |i| components.has_frame(i);

@@ -3,7 +3,6 @@
 use super::sink::ReplicaStop;
 use super::{Ensemble, EnsembleError};
 use crate::RunError;
-use actin_equilibrium::parallel::on_one_thread;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -46,16 +45,11 @@ where
     }
 
     pub(super) fn work_all(self) -> Result<Vec<T>, EnsembleError> {
-        let threads = self.threads();
-        let work = || match threads {
-            1 => self.work(),
-            _ => on_one_thread(|| self.work()),
-        };
         std::thread::scope(|scope| {
-            for _ in 1..threads {
-                scope.spawn(work);
+            for _ in 1..self.threads() {
+                scope.spawn(|| self.work());
             }
-            work();
+            self.work();
         });
         let made = self.made.into_inner();
         let made = made.unwrap_or_else(PoisonError::into_inner);

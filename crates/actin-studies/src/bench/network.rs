@@ -2,7 +2,6 @@
 
 use super::cases::{Couplings, Network};
 use super::{Timings, median};
-use actin_sim::equilibrium::parallel::on_one_thread;
 use actin_sim::{Assembly, Plan, Scene, SimError};
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -45,8 +44,7 @@ pub(super) fn run(
     let assembly = Assembly::build(&scene)?;
     let plan = Plan::new(&assembly)?;
     let started = Instant::now();
-    // Rates are per core.
-    let (trajectory, _) = on_one_thread(|| plan.run())?;
+    let (trajectory, _) = plan.run()?;
     let seconds = started.elapsed().as_secs_f64();
     let scale = network.filaments as f64 * scene.thermal_energy_pn_nm();
     let mut energies = BTreeMap::new();
