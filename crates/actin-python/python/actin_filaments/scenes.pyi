@@ -131,8 +131,7 @@ class AlteredRod(Part):
     - `rest_curvature_per_nm`: Rest curvature about the transverse axes d1 and d2, which are x and y for a filament along lab z;
     finite. The radius of curvature is greater than the radius of the filament, 3.5 nm. Default: [0.0, 0.0].
     - `rest_twist_per_nm`: Rest twist; finite. Together with the rest curvature it defines a helix. The rod is built with this
-    twist. A rod of altered monomers has the difference of their `turn_deg` from that of the filament over
-    `rise_nm`. Default: 0.0.
+    twist. For altered monomers, it is the change of `turn_deg` over `rise_nm`. Default: 0.0.
     - `shear_rigidity_factor`: Factor of the shear rigidity; positive. Default: 1.0.
     - `stretch_rigidity_factor`: Factor of the stretching rigidity; positive. Default: 1.0.
     - `twist_rigidity_factor`: Factor of the twisting rigidity; positive. Default: 1.0.
