@@ -3,6 +3,8 @@
 pub(crate) use crate::common::build;
 use crate::common::ran;
 use crate::theory::bisect;
+use actin_mechanics::testing::{assert_is_balanced, assert_is_gradient, assert_is_stiffness};
+use actin_mechanics::{Xorshift, perturb};
 use actin_sim::{Assembly, Trajectory};
 
 /// Length (nm), bending and twisting rigidity (pN nm^2).
@@ -72,4 +74,15 @@ pub(crate) fn deflection_under_uniform_force(alpha: f64, steps: usize) -> f64 {
         1e-14,
     );
     shot(curvature)[2]
+}
+
+/// Checks loads and stiffness of all interactions near the state as built.
+pub(crate) fn assert_interactions_are_gradients(assembly: &Assembly) {
+    let mut state = assembly.rest.clone();
+    perturb(&mut state, &mut Xorshift::new(8), 0.02, 0.05);
+    for interaction in assembly.system.interactions() {
+        assert_is_gradient(interaction.as_ref(), &state, 1e-4, 1e-6);
+        assert_is_stiffness(interaction.as_ref(), &state, 1e-4, 1e-5);
+        assert_is_balanced(interaction.as_ref(), &state, 1e-11);
+    }
 }

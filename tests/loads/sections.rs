@@ -1,8 +1,7 @@
 //! Sections of monomers with altered parameters.
 
-use super::common::{build, run};
+use super::common::{assert_interactions_are_gradients, build, run};
 use crate::common::refusal;
-use actin_mechanics::testing::{assert_is_balanced, assert_is_gradient, assert_is_stiffness};
 use actin_mechanics::{Interaction, Vector3, Xorshift, perturb, rotation};
 use actin_sim::{Assembly, End, FrameInfo};
 
@@ -355,13 +354,7 @@ fn the_turn_does_not_depend_on_the_resolution() {
 fn bonds_and_junctions_of_altered_turn_are_gradients() {
     for outer in ["Ellipsoids", "Rod"] {
         let assembly = decorated(&partly(), outer, "rod: RodModel(law: Fitted),");
-        let mut state = assembly.rest.clone();
-        perturb(&mut state, &mut Xorshift::new(8), 0.02, 0.05);
-        for interaction in assembly.system.interactions() {
-            assert_is_gradient(interaction.as_ref(), &state, 1e-4, 1e-6);
-            assert_is_stiffness(interaction.as_ref(), &state, 1e-4, 1e-5);
-            assert_is_balanced(interaction.as_ref(), &state, 1e-11);
-        }
+        assert_interactions_are_gradients(&assembly);
     }
 }
 

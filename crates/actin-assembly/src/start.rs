@@ -1,7 +1,7 @@
 //! Initial state from another run.
 
 use crate::scene::{Scene, SceneProblem, Setting, Start, Task};
-use crate::{Assembly, FrameInfo, PointInfo};
+use crate::{Assembly, BodyKind};
 use actin_mechanics::State;
 
 /// Tolerance for equal arc lengths (nm): far above round-off, far below changes of a scene.
@@ -56,12 +56,6 @@ impl Assembly {
     }
 
     fn check_bodies(&self, run: &Self) -> Result<(), SceneProblem> {
-        let is_same_point = |(a, b): (&PointInfo, &PointInfo)| {
-            a.kind == b.kind && (a.s_nm - b.s_nm).abs() < SAME_PLACE_NM
-        };
-        let is_same_frame = |(a, b): (&FrameInfo, &FrameInfo)| {
-            a.kind == b.kind && (a.s_nm - b.s_nm).abs() < SAME_PLACE_NM
-        };
         let [own, other] = [self, run].map(|one| (one.points.len(), one.frames.len()));
         if own != other {
             let [own, other] =
@@ -70,12 +64,19 @@ impl Assembly {
                 format!("is a run with {other}, but the scene has {own}: write the same sections");
             return Err(self.refused_start(rule));
         }
-        let are_same = self.points.iter().zip(&run.points).all(is_same_point)
-            && self.frames.iter().zip(&run.frames).all(is_same_frame);
-        if are_same {
+        let is_same = |(a, b): ((BodyKind, f64), (BodyKind, f64))| {
+            a.0 == b.0 && (a.1 - b.1).abs() < SAME_PLACE_NM
+        };
+        if self.places().zip(run.places()).all(is_same) {
             return Ok(());
         }
         Err(self.refused_start("is a run with other sections: write the same sections"))
+    }
+
+    /// Kind and arc length (nm) of each point, then of each frame.
+    fn places(&self) -> impl Iterator<Item = (BodyKind, f64)> + '_ {
+        let points = self.points.iter().map(|point| (point.kind, point.s_nm));
+        points.chain(self.frames.iter().map(|frame| (frame.kind, frame.s_nm)))
     }
 
     fn check_run(&self, run: &Self) -> Result<(), SceneProblem> {

@@ -72,7 +72,8 @@ pub struct JunctionParts<'a> {
 /// inverted.
 ///
 /// The element of length `D_C` has the rest curvature of the rod times the fraction of `D_C` inside
-/// the rod. Monomers can be [twisted](Self::with_monomer_twist) at rest. Loads are the negative gradient of `E`, so linear and angular momentum are conserved.
+/// the rod. Monomers can be [twisted](Self::with_monomer_twist) at rest. Loads are the negative
+/// gradient of `E`, so linear and angular momentum are conserved.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 3, with signs and factors derived from this energy. The printed
