@@ -23,9 +23,11 @@ pub struct UnstableTwist {
     pub twist_per_nm: f64,
     /// Compression of the segment (pN); negative in tension.
     pub compression_pn: f64,
+    /// Mean curvature of bending around the segment (rad/nm).
+    pub curvature_per_nm: f64,
     /// Critical compression of the twist (pN). If positive, larger compression is unstable; if
-    /// negative, larger tension is.
-    pub bound_pn: f64,
+    /// negative, larger tension is. `None` if the twist is unstable without axial force.
+    pub bound_pn: Option<f64>,
     /// Share of the records in which the section has an unstable segment.
     pub share_of_records: f64,
 }
@@ -36,21 +38,24 @@ impl fmt::Display for UnstableTwist {
             1.0 => String::new(),
             share => format!(" in {} of the records", percent(share)),
         };
-        let (what, sign) = if self.bound_pn < 0.0 {
-            ("tension", -1.0)
-        } else {
-            ("compression", 1.0)
-        };
+        let place = format!("at s = {:.1} nm{}", self.s_nm, of_filament(self.filament));
         // Avoids the sign of a zero.
         let twist = (1e4 * self.twist_per_nm).round() / 1e4 + 0.0;
+        let exceeded = |what: &str, force: f64, bound: f64| {
+            format!(": {what} {force:.2} pN {place} exceeds the critical value {bound:.2} pN")
+        };
+        let cause = match self.bound_pn {
+            None => {
+                let curvature = self.curvature_per_nm;
+                format!(" {place} without axial force, at a curvature of {curvature:.4} rad/nm")
+            }
+            Some(bound) if bound < 0.0 => exceeded("tension", -self.compression_pn, -bound),
+            Some(bound) => exceeded("compression", self.compression_pn, bound),
+        };
         write!(
             f,
-            "twist is UNSTABLE{often}: {what} {:.2} pN at s = {:.1} nm{} exceeds the critical value {:.2} pN (twist \
-             {twist:.4} rad/nm); the instability is local: results depend on the number of segments",
-            sign * self.compression_pn,
-            self.s_nm,
-            of_filament(self.filament),
-            sign * self.bound_pn
+            "twist is UNSTABLE{often}{cause} (twist {twist:.4} rad/nm); the instability is local: results depend on \
+             the number of segments",
         )
     }
 }
@@ -108,8 +113,11 @@ impl Assembly {
                 section: rod.section - self.filaments[filament].sections.start,
                 s_nm: self.sections[rod.section].from_nm + middle,
                 twist_per_nm: kappa.z,
+                curvature_per_nm: kappa.x.hypot(kappa.y),
                 compression_pn: -stability.tension,
-                bound_pn: -(watch.law).critical_tension(&watch.material, sigma, kappa)?,
+                bound_pn: (watch.law)
+                    .critical_tension(&watch.material, sigma, kappa)
+                    .map(|n| -n),
                 share_of_records: 1.0,
             },
         })

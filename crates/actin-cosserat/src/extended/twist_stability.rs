@@ -30,9 +30,9 @@ impl SegmentLaw {
     /// `d2U/dkappa_3^2 / xi''(kappa_3)`.
     ///
     /// For `xi'' < 0`, as in the published and fitted laws near rest, twist is unstable in stronger
-    /// compression; for `xi'' > 0`, under larger tension. Returns `None` if `xi'' = 0`. For a
-    /// potential, this is the smallest force at which the tangent vanishes within a stretch of
-    /// 0.02.
+    /// compression; for `xi'' > 0`, under larger tension. Returns `None` if `xi'' = 0`, or if twist
+    /// is unstable without axial force. For a potential, this is the smallest force at which the
+    /// tangent vanishes within a stretch of 0.02.
     ///
     /// ```
     /// use actin_cosserat::{Rigidities, RodMaterial, SegmentLaw, TanhTwist, TwistLaw, TwistStretch};
@@ -58,7 +58,8 @@ impl SegmentLaw {
             Kind::Potential(law) => return law.critical_tension(sigma, kappa),
         };
         let [.., second] = self.extension(kappa.z);
-        (second != 0.0).then(|| self.free_tangent(laws, sigma, kappa) / second)
+        let free = self.free_tangent(laws, sigma, kappa);
+        (second != 0.0 && free > 0.0).then(|| free / second)
     }
 
     /// Axial force and tangent of twist at strain `sigma` and mean curvature `kappa`.

@@ -40,7 +40,8 @@ impl Homogenised {
         0.5 * (least + most)
     }
 
-    /// Smallest force (pN) at which the tangent vanishes within [`REACH`], or `None`.
+    /// Smallest force (pN) at which the tangent vanishes within [`REACH`]. `None` without such a force,
+    /// or if the tangent is not positive at zero force.
     pub(crate) fn critical_tension(&self, sigma: Vector3, kappa: Vector3) -> Option<f64> {
         let free = self.free_stretch(sigma, kappa);
         let at = |e: f64| {
@@ -48,15 +49,17 @@ impl Homogenised {
             self.tension_and_twist_tangent(sigma, kappa)
         };
         let is_stable = |e: f64| at(e)[1] > 0.0;
-        let at_rest = is_stable(0.0);
+        if !is_stable(0.0) {
+            return None;
+        }
         let (reach, steps) = REACH;
         let step = reach / f64::from(steps);
         let both = (1..=steps).flat_map(|n| [-step, step].map(|step| (n, step)));
         let mut found = both.map(|(n, step)| [f64::from(n - 1) * step, f64::from(n) * step]);
-        let [mut inner, mut outer] = found.find(|[_, outer]| is_stable(*outer) != at_rest)?;
+        let [mut inner, mut outer] = found.find(|[_, outer]| !is_stable(*outer))?;
         for _ in 0..HALVINGS {
             let middle = 0.5 * (inner + outer);
-            if is_stable(middle) == at_rest {
+            if is_stable(middle) {
                 inner = middle;
             } else {
                 outer = middle;
