@@ -1,19 +1,25 @@
 //! Construction of scenes that start from another run.
 
-use crate::FinishedRun;
+use crate::{FinishedRun, RunDirectory};
 use actin_sim::{Assembly, Scene, SceneProblem, Start};
 
 /// Builds a scene as [`actin_sim::build`], and reads its initial state from the run that `start` names.
 ///
 /// # Errors
-/// As [`actin_sim::build`]; if the run cannot be read or has other bodies.
+/// As [`actin_sim::build`]; if the run failed, cannot be read, or has other bodies.
 pub fn build(scene: &Scene) -> Result<Assembly, SceneProblem> {
     let mut assembly = actin_sim::build(scene)?;
     let Some(Start::Run { directory }) = &scene.start else {
         return Ok(assembly);
     };
-    let run = FinishedRun::open(directory).and_then(|run| Ok((run.last_state()?, run)));
-    let (state, run) = run.map_err(|error| assembly.refused_start(error.to_string()))?;
+    let run = FinishedRun::open(directory).and_then(|run| {
+        let summary = RunDirectory::existing(directory).summary()?;
+        Ok((summary.failure, run.last_state()?, run))
+    });
+    let (failure, state, run) = run.map_err(|error| assembly.refused_start(error.to_string()))?;
+    if !failure.is_empty() {
+        return Err(assembly.refused_start(format!("is a run that failed: {failure}")));
+    }
     assembly.start_from(run.assembly(), &state)?;
     Ok(assembly)
 }
@@ -24,6 +30,7 @@ mod tests {
     use crate::RunDirectory;
     use actin_sim::mechanics::State;
     use actin_sim::{End, Plan};
+    use std::fs;
     use std::path::Path;
 
     /// Filament of monomers and a rod with other keys of the scene.
@@ -167,6 +174,11 @@ mod tests {
             "{}",
             refusal(&other)
         );
+        let summary = at.join("summary.json");
+        let text = fs::read_to_string(&summary).unwrap();
+        let failed = text.replacen('{', "{\"failure\": \"no equilibrium\",", 1);
+        fs::write(&summary, failed).unwrap();
+        assert!(refusal(&after(&at, task)).contains("is a run that failed: no equilibrium"));
         let unread = actin_sim::build(&after(&at, task)).unwrap();
         let problem = Plan::new(&unread).unwrap_err();
         assert!(problem.rule.contains("actin_rundir::build"), "{problem}");
