@@ -3,7 +3,7 @@
 use crate::kinetics::Kinetics;
 use crate::repulsion::RepulsionModel;
 use crate::rod::Rod;
-use crate::scene::{ClampedEnds, End, Monomers, Scene};
+use crate::scene::{ClampedEnds, End, Filament, Monomers, RodModel, Scene};
 use crate::{
     BodyKind, Clamped, Counts, Drive, FilamentSpan, FrameInfo, InterfaceSampling, PointInfo,
     SectionChoice, SectionSpan, Term,
@@ -155,6 +155,40 @@ impl Assembly {
         filament
     }
 
+    /// Returns the filament of a section and the index of the section in this filament.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn place_of_section(&self, section: usize) -> (usize, usize) {
+        let filament = self.filament_of_section(section);
+        (filament, section - self.filaments[filament].sections.start)
+    }
+
+    /// Returns the scene of a filament.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn written(&self, filament: usize) -> &Filament {
+        let filament = self.scene.filament_at(filament);
+        filament.expect("the scene has this filament")
+    }
+
+    /// Returns the rod model of a section; for monomers, the model of the rod that represents them.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn rod_model_of(&self, section: usize) -> RodModel {
+        let (filament, i) = self.place_of_section(section);
+        let filament = self.written(filament);
+        filament.sections[i].rod_model(&filament.rod)
+    }
+
+    /// Returns the rod of a section; `None` for monomers.
+    pub(crate) fn rod_of(&self, section: usize) -> Option<&Rod> {
+        let found = self.rods.binary_search_by_key(&section, |rod| rod.section);
+        Some(&self.rods[found.ok()?])
+    }
+
     /// Returns the filament of a point.
     pub fn filament_of_point(&self, point: usize) -> usize {
         self.filaments.partition_point(|f| f.points.end <= point)
@@ -237,8 +271,7 @@ impl Assembly {
     /// # Panics
     /// If the index is out of range.
     pub fn monomers_of(&self, filament: usize) -> &Monomers {
-        let filament = self.scene.filament_at(filament);
-        &filament.expect("the scene has this filament").monomers
+        &self.written(filament).monomers
     }
 
     /// Controls of the load factors, in the order of the scene.

@@ -1,7 +1,7 @@
 //! Cells of a filament, and the scene with some of them as monomers.
 
 use crate::scene::{AdaptiveResolution, Filament, Scene, SceneProblem, Section};
-use crate::{HeatedSegments, TOO_SHORT, cells_nm, potential};
+use crate::{HeatedSegments, TOO_SHORT, cells_nm, monomers_between, potential};
 use actin_cosserat::Homogenised;
 
 /// Tolerance (nm) for equal lengths of cells.
@@ -89,7 +89,7 @@ impl Cells {
                     *to_nm = to;
                     *segments += self.segments;
                 }
-                _ if resolved => sections.push((monomers(from, to), length)),
+                _ if resolved => sections.push((monomers_between(from, to), length)),
                 _ => sections.push((Section::rod(from, to, Some(self.segments)), length)),
             }
         }
@@ -97,13 +97,5 @@ impl Cells {
         let sections: Vec<_> = sections.into_iter().map(|(section, _)| section).collect();
         resolved.filament.sections = sections.into();
         resolved
-    }
-}
-
-fn monomers(from_nm: f64, to_nm: f64) -> Section {
-    Section::Ellipsoids {
-        from_nm,
-        to_nm,
-        altered: None,
     }
 }

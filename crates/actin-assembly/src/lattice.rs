@@ -86,20 +86,6 @@ pub(super) fn resolve(
         .collect()
 }
 
-/// Length (nm) of filament 0 made of monomers that is nearest to `length_nm`.
-fn whole_length_nm(scene: &Scene, length_nm: f64) -> Result<f64, SceneProblem> {
-    let held = ClampedEnds::new(scene);
-    let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
-    let mut filament = scene.filament.clone();
-    filament.sections = vec![Section::Ellipsoids {
-        from_nm: 0.0,
-        to_nm: length_nm,
-        altered: None,
-    }]
-    .into();
-    resolve(&filament, is_held).map(|resolved| resolved[0].to_nm)
-}
-
 /// Boundaries (nm) of cells of filament 0, whose length `length_nm` is rounded to whole monomers.
 ///
 /// Each cell holds the number of whole monomers that brings it nearest to `cell_nm`. The last cell
@@ -109,9 +95,11 @@ pub(crate) fn cells_nm(
     length_nm: f64,
     cell_nm: f64,
 ) -> Result<Vec<f64>, SceneProblem> {
-    let length_nm = whole_length_nm(scene, length_nm)?;
     let held = ClampedEnds::new(scene);
     let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
+    let mut filament = scene.filament.clone();
+    filament.sections = vec![monomers_between(0.0, length_nm)].into();
+    let length_nm = resolve(&filament, is_held)?[0].to_nm;
     let lattice = Lattice::new(&scene.filament, is_held);
     let monomers = (cell_nm / lattice.rise_nm).round();
     let cells = (length_nm / (monomers * lattice.rise_nm)).round().max(1.0);
@@ -124,6 +112,15 @@ pub(crate) fn cells_nm(
     boundaries.extend(places);
     boundaries.push(length_nm);
     Ok(boundaries)
+}
+
+/// Section of unaltered monomers.
+pub(crate) fn monomers_between(from_nm: f64, to_nm: f64) -> Section {
+    Section::Ellipsoids {
+        from_nm,
+        to_nm,
+        altered: None,
+    }
 }
 
 fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), SceneProblem> {

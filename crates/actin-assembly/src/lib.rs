@@ -48,7 +48,7 @@ mod unstable_twist;
 
 use actin_scene as scene;
 use kinetics::SiteTable;
-use lattice::cells_nm;
+use lattice::{cells_nm, monomers_between};
 use law::{HeatedSegments, TOO_SHORT, potential};
 use parts::InterfaceSampling;
 use rod::{Ranges, Rod, TwistWatch};

@@ -22,15 +22,14 @@ impl Assembly {
     fn check_slip_of(&self, filament: usize) -> Result<(), SceneProblem> {
         let span = &self.filaments[filament];
         let section = span.sections.start;
-        let rod = self.rods.binary_search_by_key(&section, |r| r.section);
         let [start, end] = [End::Start, End::End].map(|end| self.held.fixed_at(filament, end));
-        let (Ok(rod), Some(start), Some(end)) = (rod, start, end) else {
+        let (Some(rod), Some(start), Some(end)) = (self.rod_of(section), start, end) else {
             return Ok(());
         };
         if span.sections.len() > 1 {
             return Ok(());
         }
-        let joints = self.rods[rod].layout.voronoi_lengths();
+        let joints = rod.layout.voronoi_lengths();
         let length: f64 = joints.iter().sum();
         let longest = joints.iter().copied().fold(0.0, f64::max);
         let turned = [start, end].map(|clamp| self.drive.turned_after(clamp));

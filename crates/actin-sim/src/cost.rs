@@ -83,8 +83,7 @@ impl Plan<'_> {
 
 fn elements(assembly: &Assembly, filament: usize) -> usize {
     let counts = assembly.counts_of(filament);
-    let scene = assembly.scene.filament_at(filament);
-    let attached = scene.map_or(0, |one| one.junction.attached_monomers);
+    let attached = assembly.written(filament).junction.attached_monomers;
     counts.segments + counts.junctions * attached
 }
 

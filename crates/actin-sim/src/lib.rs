@@ -21,6 +21,7 @@ mod ensemble;
 mod error;
 mod execute;
 pub mod follow;
+mod loads;
 mod memory;
 mod notes;
 mod observe;

@@ -80,7 +80,7 @@ impl Strand<'_> {
         Rod {
             section: self.first_section + i,
             layout: layout.clone(),
-            law: self.laws[i].of_strains(),
+            material: self.laws[i].material,
             ranges: self.laws[i].ranges(),
             joined: around.joined.clone(),
             twist_watch: self.laws[i].twist_watch(layout, around),

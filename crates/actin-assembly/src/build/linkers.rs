@@ -297,7 +297,7 @@ impl Assembly {
         }
         let past = sections.partition_point(|section| section.to_nm < s_nm);
         let section = span.sections.start + past.min(sections.len() - 1);
-        let site = if let Some(rod) = self.rods.iter().find(|rod| rod.section == section) {
+        let site = if let Some(rod) = self.rod_of(section) {
             let from_start = s_nm - self.sections[section].from_nm;
             let place = RodPlace::on_axis(&rod.layout, &rod.layout.node_positions(), from_start);
             Site::on_rod(&rod.layout, place)

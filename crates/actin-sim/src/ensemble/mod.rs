@@ -4,16 +4,13 @@
 
 mod error;
 mod pool;
-mod sink;
 #[cfg(test)]
 mod tests;
 
 pub use error::EnsembleError;
 
 use crate::scene::RandomPart;
-use crate::{Outcome, Plan, Scene, Status, Trajectory};
-use pool::ReplicaPool;
-use std::fmt;
+use crate::{Outcome, Plan, Record, Scene, Sink, Status, Trajectory};
 use std::num::NonZeroUsize;
 
 /// Replicas of a scene with different seeds.
@@ -45,7 +42,7 @@ use std::num::NonZeroUsize;
 /// assert_ne!(tips_nm[0], tips_nm[1]);
 /// # Ok::<(), actin_sim::SimError>(())
 /// ```
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Ensemble<'a> {
     scene: &'a Scene,
     seeds: Vec<u64>,
@@ -134,12 +131,15 @@ impl<'a> Ensemble<'a> {
         &self,
         observe: impl Fn(Replica<'_>) -> T + Sync,
     ) -> Result<Vec<T>, EnsembleError> {
-        let make = |index: usize, stop: &sink::ReplicaStop<'_>| {
+        let replica = |index: usize, is_stopped: &dyn Fn() -> bool| {
             let seed = self.seeds[index];
             let assembly = crate::build(&self.reseeded(seed).0)?;
             let plan = Plan::new(&assembly)?;
-            let mut sink = Trajectory::default();
-            let outcome = plan.run_into(&mut stop.over(&mut sink))?;
+            let mut sink = StoppableSink {
+                trajectory: Trajectory::default(),
+                is_stopped,
+            };
+            let outcome = plan.run_into(&mut sink)?;
             if outcome.status == Status::Interrupted {
                 return Ok(None);
             }
@@ -147,11 +147,17 @@ impl<'a> Ensemble<'a> {
                 index,
                 seed,
                 plan: &plan,
-                sink,
+                sink: sink.trajectory,
                 outcome,
             })))
         };
-        ReplicaPool::new(self, &make).work_all()
+        let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        let threads = self.threads.map_or_else(cores, NonZeroUsize::get);
+        let replicas = self.seeds.len();
+        pool::on_threads(threads.min(replicas), replicas, replica).map_err(|(index, error)| {
+            let seed = self.seeds[index];
+            EnsembleError::Replica { index, seed, error }
+        })
     }
 
     /// Returns the scene with a seed, and the number of its random parts with that seed.
@@ -163,13 +169,18 @@ impl<'a> Ensemble<'a> {
     }
 }
 
-impl fmt::Debug for Ensemble<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Ensemble")
-            .field("scene", &self.scene)
-            .field("seeds", &self.seeds)
-            .field("drawn", &self.drawn)
-            .field("threads", &self.threads)
-            .finish_non_exhaustive()
+/// Records of a replica, whose run stops after the failure of an earlier one.
+struct StoppableSink<'a> {
+    trajectory: Trajectory,
+    is_stopped: &'a dyn Fn() -> bool,
+}
+
+impl Sink for StoppableSink<'_> {
+    fn record(&mut self, record: &Record) {
+        self.trajectory.record(record);
+    }
+
+    fn is_interrupted(&mut self) -> bool {
+        (self.is_stopped)()
     }
 }

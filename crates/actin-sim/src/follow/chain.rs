@@ -326,33 +326,29 @@ impl Follower {
     /// As [`advance`](Self::advance).
     pub fn run(&self) -> Result<AdaptiveMotion, RunError> {
         let mut stretches = Vec::new();
-        let (mut stretch, mut saved) = (self.begin()?, None);
+        let (mut stretch, mut saved) = (self.begin()?, None::<SavedRun>);
         loop {
-            let mut trajectory = Trajectory::default();
-            trajectory.records.extend(first_record(saved.as_ref()));
+            let first = saved.iter().filter_map(|saved| saved.recorded.last.clone());
+            let mut trajectory = Trajectory {
+                records: first.collect(),
+            };
             let plan = Plan::new(&stretch.assembly)?;
-            let left = self.advance((&stretch, &plan), saved.take(), &mut trajectory)?;
-            let (outcome, next) = match left {
+            let end = self.advance((&stretch, &plan), saved, &mut trajectory)?;
+            let (outcome, next) = match end {
                 StretchEnd::Over(outcome) => (outcome, None),
                 StretchEnd::Switched(outcome, next) => (outcome, Some(*next)),
             };
-            let ran = |stretch| CompletedStretch {
+            stretches.push(CompletedStretch {
                 stretch,
                 trajectory,
                 outcome,
-            };
+            });
             let Some(next) = next else {
-                stretches.push(ran(stretch));
                 return Ok(AdaptiveMotion { stretches });
             };
-            stretches.push(ran(stretch));
             (stretch, saved) = (next.stretch, Some(next.saved));
         }
     }
-}
-
-fn first_record(saved: Option<&SavedRun>) -> Option<Record> {
-    saved.and_then(|saved| saved.recorded.last.clone())
 }
 
 /// Returns the scene with an interval of records and a time step for both rods and monomers.

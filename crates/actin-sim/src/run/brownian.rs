@@ -1,17 +1,16 @@
 //! Overdamped motion: friction, time step and run.
 
-use super::dynamics::{check_records, conclude};
+use super::dynamics::check_records;
 use super::estimate::LongestStep;
 use super::recorder::Recorder;
-use super::sink::{Clock, SavedRun, Sink};
 use super::step_check::StepCheck;
 use super::steps::Steps;
 use super::unknowns::layout;
-use super::{Estimate, Failure, Outcome, Status, long_steps};
+use super::{Estimate, Failure, Outcome, long_steps};
 use crate::scene::{Brownian as Task, Flow, Fluid, SceneProblem, Task as AnyTask};
 use crate::{Assembly, SectionSpan};
 use actin_brownian::{Brownian, Layout, Relaxation};
-use actin_integrate::{POSITION_VERLET, Run, Split};
+use actin_integrate::{POSITION_VERLET, Run};
 use actin_mechanics::{System, Vector3};
 
 /// Approximate iterations of a step with midpoints and with random stress.
@@ -268,18 +267,13 @@ fn physical_flow(flow: &Flow) -> actin_brownian::Flow {
 }
 
 /// Runs the motion.
-pub(super) fn run(
-    assembly: &Assembly,
+pub(super) fn run<'a>(
+    assembly: &'a Assembly,
     task: &Task,
     estimate: &Estimate,
-    saved: Option<SavedRun>,
-    clock: Clock,
-    sink: &mut dyn Sink,
+    mut recorder: Recorder<'a>,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
-    let refused = |error: &dyn std::error::Error| SceneProblem::new("task", "", error.to_string());
-    let motion = task.to_dynamics();
     let mut system = assembly.system.in_state(assembly.system.state().clone());
-    let mut recorder = Recorder::new(assembly, &motion, saved, clock, sink);
     // The order of unknowns follows the state as built, also for a resumed run.
     let new_stepper = |system: &System| {
         let stepper = estimate.stepper((assembly, task), system, layout(assembly)?)?;
@@ -290,28 +284,12 @@ pub(super) fn run(
     recorder.drive(&mut compared);
     let compared = (compared, new_stepper(&system)?);
     recorder.step_check = Some(StepCheck::new(assembly, estimate, compared));
-    // The method is not looked at: the stepper makes the steps.
+    // The stepper makes the steps instead of this method.
     let run = Run::new(&POSITION_VERLET, estimate.time_step_ns, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))
         // Long steps could let filaments pass through each other within a few steps.
         .and_then(|run| run.checking_every(1))
-        .map_err(|error| refused(&error))?
+        .map_err(|error| SceneProblem::new("task", "", error.to_string()))?
         .stopping_from(recorder.drive(&mut system));
-    let begun = recorder.is_whole().then(|| system.total_energy());
-    recorder.let_happen(&mut system);
-    if let Some(energy_balance) = assembly.energy_balance {
-        system.track_energy_balance(energy_balance);
-    }
-    let ending = recorder.execute_steps(&run, &mut stepper, &mut system);
-    let ending = recorder.end(ending, &mut system);
-    let wall_s = recorder.wall_s();
-    let outcome = Outcome {
-        force_evaluations: system.force_evaluations(),
-        time_step_ns: Some(estimate.time_step_ns),
-        begun_with_pn_nm: begun,
-        events: recorder.events(),
-        ..Outcome::new(Status::Failed, wall_s)
-    }
-    .with(recorder.taken.into_remarks());
-    Ok(conclude(assembly, &motion, ending, outcome))
+    Ok(recorder.run(estimate, (&run, Some(&mut stepper)), system))
 }

@@ -2,17 +2,14 @@
 
 use super::bound::kinetic_limit;
 use super::estimate::{Estimate, composition_of};
-use super::recorder::{Ending, Recorder};
-use super::rest::{is_saddle, saddle};
-use super::sink::{Clock, SavedRun, Sink};
+use super::recorder::Recorder;
 use super::steps::Steps;
 use super::unknowns::layout;
-use super::{Failure, Outcome, Status};
+use super::{Failure, Outcome};
 use crate::scene::{Dynamics, Filament, Fluid, RodLaw, SceneProblem, StopTolerances};
 use crate::{Assembly, memory};
 use actin_brownian::Langevin;
-use actin_integrate::{Bath, Composition, Drag, Reason, Run};
-use actin_mechanics::{Split, System};
+use actin_integrate::{Bath, Composition, Drag, Run, Stepper};
 
 pub(super) fn estimate(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
@@ -121,21 +118,13 @@ pub(super) fn check_records(
     dynamics: &Dynamics,
     steps: &Steps,
 ) -> Result<(), SceneProblem> {
-    let records = number_of_records(steps.count, steps.between_records);
-    let value = format!(
-        "{:?}",
-        dynamics.record_every_ns.unwrap_or(steps.record_every_ns)
-    );
-    let bytes = assembly.bytes + records * memory::of_kept_record(assembly);
-    actin_assembly::memory::check(bytes, ("task.record_every_ns", value), || {
-        let bodies = assembly.points.len() + assembly.frames.len();
+    // The first record and the last one are included.
+    let records = (steps.count / steps.between_records + 1) as f64;
+    let every_ns = dynamics.record_every_ns.unwrap_or(steps.record_every_ns);
+    let key = ("task.record_every_ns", format!("{every_ns:?}"));
+    memory::check_records(assembly, records, key, |bodies| {
         format!("{records:.2e} records of {bodies} bodies need")
     })
-}
-
-/// Number of records of a motion, including the first and the last.
-fn number_of_records(steps: u64, between_records: u64) -> f64 {
-    (steps / between_records + 1) as f64
 }
 
 /// Returns the same filaments with rods of constant rigidities, if rods resist shear only after
@@ -163,121 +152,30 @@ pub(super) fn run(
     assembly: &Assembly,
     dynamics: &Dynamics,
     estimate: &Estimate,
-    saved: Option<SavedRun>,
-    clock: Clock,
-    sink: &mut dyn Sink,
+    recorder: Recorder<'_>,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
     let mut system = assembly.system.in_state(assembly.system.state().clone());
-    let mut recorder = Recorder::new(assembly, dynamics, saved, clock, sink);
-    let run = prepare((assembly, dynamics), &recorder, &mut system, estimate)?;
-    // Loads have their initial factors.
-    let begun = recorder.is_whole().then(|| system.total_energy());
-    recorder.let_happen(&mut system);
-    if let Some(energy_balance) = assembly.energy_balance {
-        system.track_energy_balance(energy_balance);
-    }
-    let ending = match dynamics.drag.fluid() {
-        None => recorder.execute(&run, &mut system),
-        Some(fluid) => {
-            let mut stepper = langevin(assembly, dynamics, fluid)?;
-            recorder.execute_steps(&run, &mut stepper, &mut system)
-        }
-    };
-    let ending = recorder.end(ending, &mut system);
-    let wall_s = recorder.wall_s();
-    let outcome = Outcome {
-        force_evaluations: system.force_evaluations(),
-        time_step_ns: Some(estimate.time_step_ns),
-        largest_frequency_rad_per_ns: Some(estimate.largest_frequency_rad_per_ns),
-        begun_with_pn_nm: begun,
-        largest_kinetic_pn_nm: recorder.largest_kinetic_pn_nm,
-        saddles_left: recorder.pushes.len(),
-        events: recorder.events(),
-        pushes: recorder.pushes,
-        ..Outcome::new(Status::Failed, wall_s)
-    }
-    .with(recorder.taken.into_remarks());
-    Ok(conclude(assembly, dynamics, ending, outcome))
-}
-
-pub(super) fn conclude(
-    assembly: &Assembly,
-    dynamics: &Dynamics,
-    ending: Ending,
-    outcome: Outcome,
-) -> (Outcome, Option<Failure>) {
-    let (mut outcome, failure) = ended(assembly, dynamics, ending, outcome);
-    // Later events belong to no record.
-    let steps = outcome.steps;
-    outcome.events.retain(|event| event.step <= steps);
-    (outcome, failure)
-}
-
-fn ended(
-    assembly: &Assembly,
-    dynamics: &Dynamics,
-    ending: Ending,
-    mut outcome: Outcome,
-) -> (Outcome, Option<Failure>) {
-    let failure = match ending {
-        Ending::Interrupted(end) => {
-            outcome.status = Status::Interrupted;
-            outcome.steps = end.steps;
-            outcome.force_evaluations = end.force_evaluations;
-            None
-        }
-        Ending::Ended(end, at_rest) => {
-            outcome.status = match end.reason {
-                Reason::Converged => Status::Converged,
-                _ => Status::Completed,
-            };
-            outcome.steps = end.steps;
-            outcome.force_evaluations = end.force_evaluations;
-            outcome.at_rest = at_rest;
-            let certificate = at_rest.filter(is_saddle);
-            let attempts = dynamics.leave_saddles;
-            certificate.map(|c| Failure::Saddle(saddle(&c, attempts, way_off(dynamics))))
-        }
-        Ending::Slipped(lost, step) => {
-            outcome.steps = step;
-            let place = format!("at {:.4} ns, ", lost.at().value());
-            Some(Failure::from_turn_loss(lost, place))
-        }
-        Ending::Failed(failure) => {
-            outcome.steps = failure.last_good_step;
-            let body = assembly.describe(failure.body);
-            Some(Failure::Diverged { failure, body })
-        }
-    };
-    (outcome, failure)
-}
-
-fn way_off(dynamics: &Dynamics) -> &'static str {
-    match dynamics.leave_saddles {
-        0 => {
-            "with leave_saddles: 1 or more the motion is pushed off saddles and continues; an \
-             imperfection of the filament, such as (amplitude_nm: 0.01, seed: 1), keeps it off them"
-        }
-        _ => "more pushes or a longer duration_ns may lead off it",
-    }
-}
-
-fn prepare(
-    (assembly, dynamics): (&Assembly, &Dynamics),
-    recorder: &Recorder<'_>,
-    system: &mut System,
-    estimate: &Estimate,
-) -> Result<Run, SceneProblem> {
     let limit = kinetic_limit(assembly, recorder.begun_with_pn_nm());
     let run = plan(dynamics, estimate)?
-        .stopping_from(recorder.drive(system))
+        .stopping_from(recorder.drive(&mut system))
         .with_kinetic_limit(limit)
         .expect("the limit is positive");
     // The bound limits the total energy. In a bath strain has additional thermal energy.
-    Ok(match dynamics.thermal {
+    let run = match dynamics.thermal {
         Some(_) => run,
         None => run.with_energy_limit(limit).expect("the limit is a number"),
-    })
+    };
+    let fluid = dynamics.drag.fluid();
+    let mut stepper = fluid
+        .map(|fluid| langevin(assembly, dynamics, fluid))
+        .transpose()?;
+    let stepper = stepper.as_mut().map(|stepper| stepper as &mut dyn Stepper);
+    let (outcome, failure) = recorder.run(estimate, (&run, stepper), system);
+    let outcome = Outcome {
+        largest_frequency_rad_per_ns: Some(estimate.largest_frequency_rad_per_ns),
+        ..outcome
+    };
+    Ok((outcome, failure))
 }
 
 fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {

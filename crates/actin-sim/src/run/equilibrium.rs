@@ -1,7 +1,7 @@
 //! Equilibria by Newton's method, from the state as built or along the path of the scene.
 
 use super::lost_load::lost_load;
-use super::model_error::{MeasureModelError, ModelErrorResult};
+use super::model_error::MeasureModelError;
 use super::outcome::EquilibriumReport;
 use super::record_stream::RecordStream;
 use super::rest::{is_saddle, saddle};
@@ -14,10 +14,10 @@ use crate::Assembly;
 use crate::At;
 use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
 use actin_equilibrium::{
-    Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path, PathError,
-    PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
+    Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
+    PathError, PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
 };
-use actin_mechanics::{State, System};
+use actin_mechanics::State;
 use std::ops::ControlFlow;
 
 pub(super) fn run(
@@ -44,30 +44,42 @@ pub(super) fn run(
         clock,
         ..
     } = follower;
-    let wanted = settings.lowest_eigenvalue && !is_interrupted;
-    let last = position.last.as_ref().filter(|_| wanted);
-    let lowest = lowest_eigenvalue(&mut newton, &assembly.system, &state, last);
+    let interactions = assembly.system.interactions();
+    let certificate = position.last.as_ref().and_then(|last| last.certificate);
+    let lowest_eigenvalue = certificate
+        .filter(|_| settings.lowest_eigenvalue && !is_interrupted)
+        .and_then(|certificate| {
+            let lowest = newton.lowest_eigenvalue(&state, interactions, &certificate);
+            lowest.ok().flatten()
+        });
     let is_done = failure.is_none() && !is_interrupted;
-    let judged = settings.error_of.filter(|_| is_done);
-    let error = judged.map(|quantity| {
+    let error = settings.error_of.filter(|_| is_done).map(|quantity| {
         let last = Record::of_equilibrium(&assembly.system, 0.0, &state);
         model_error(assembly, &last, quantity)
     });
-    let work = newton.work();
     let status = match (&failure, is_interrupted) {
         (Some(_), _) => Status::Failed,
         (None, true) => Status::Interrupted,
         (None, false) => Status::Converged,
     };
+    let report = |(certificate, last): (Certificate, SolveReport)| EquilibriumReport {
+        certificate,
+        lowest_eigenvalue,
+        newton_iterations: of_path.iterations,
+        points: position.points,
+        floor: last.floor,
+        history: last.history,
+        states,
+        error,
+    };
     let outcome = Outcome {
-        force_evaluations: work.evaluations,
+        force_evaluations: newton.work().evaluations,
         saddles_left: position.saddles_left,
         jumps: position.jumps,
-        equilibrium: report(position, lowest, of_path, (states, error)),
+        equilibrium: certificate.zip(position.last).map(report),
         ..Outcome::new(status, clock.wall_s())
-    }
-    .with(taken.into_remarks());
-    Ok((outcome, failure))
+    };
+    Ok((taken.into_outcome(outcome), failure))
 }
 
 fn place(assembly: &Assembly, stages_done: usize) -> String {
@@ -170,7 +182,7 @@ impl<'a> Follower<'a> {
         state: &mut State,
     ) -> Result<Option<Failure>, SceneProblem> {
         let ended = self.follow(newton, state)?;
-        if let Some(lost) = self.taken.lost() {
+        if let Some(lost) = self.taken.lost.take() {
             self.is_interrupted = false;
             state.set_motion(&self.position.motion);
             self.checkpoint();
@@ -205,7 +217,7 @@ impl<'a> Follower<'a> {
         state: &State,
     ) -> Result<Option<StableStates>, SceneProblem> {
         let starts = self.settings.states;
-        let last = self.taken.last().map(|last| last.at);
+        let last = self.taken.recorded.last().map(|last| last.at);
         let Some(at) = last.filter(|_| starts > 0 && !self.is_interrupted) else {
             return Ok(None);
         };
@@ -236,7 +248,7 @@ impl<'a> Follower<'a> {
     }
 
     fn flaw(&self) -> Option<Failure> {
-        let last = self.taken.last();
+        let last = self.taken.recorded.last();
         let lost = last.and_then(|last| lost_load(self.assembly, last));
         lost.map(Failure::LoadBelowResidual).or_else(|| {
             let certificate = self.position.last.as_ref()?.certificate?;
@@ -264,7 +276,7 @@ impl<'a> Follower<'a> {
             let path = path(self.settings)?;
             let mut stages = self.position.stage..self.assembly.drive.stages();
             stages.try_for_each(|stage| {
-                if self.taken.has_lost() {
+                if self.taken.lost.is_some() {
                     return Ok(());
                 }
                 self.stage(&path, newton, state, stage)
@@ -386,7 +398,7 @@ impl<'a> Follower<'a> {
         } else {
             // Best state of a failed attempt; the next attempt starts without it.
             let none = RecordSummary::new(self.assembly);
-            self.taken.checkpoint_behind(&position, &none, wall_s);
+            self.taken.sink.checkpoint(&position, &none, wall_s);
         }
     }
 
@@ -409,7 +421,7 @@ impl PathObserver for Follower<'_> {
         }
         self.position.jumps += usize::from(point.jumped);
         self.note(point);
-        self.taken.progress(&Progress {
+        self.taken.sink.progress(&Progress {
             at: At::Path(u),
             end: self.assembly.drive.stages() as f64,
             steps: self.position.points as u64,
@@ -424,34 +436,4 @@ impl PathObserver for Follower<'_> {
     fn iterate(&mut self, _step: &Iteration) -> ControlFlow<()> {
         self.go_on()
     }
-}
-
-fn lowest_eigenvalue(
-    newton: &mut Newton,
-    system: &System,
-    state: &State,
-    last: Option<&SolveReport>,
-) -> Option<f64> {
-    let certificate = last?.certificate?;
-    let lowest = newton.lowest_eigenvalue(state, system.interactions(), &certificate);
-    lowest.ok().flatten()
-}
-
-fn report(
-    position: PathPosition,
-    lowest_eigenvalue: Option<f64>,
-    work: SolverWork,
-    (states, error): (Option<StableStates>, Option<ModelErrorResult>),
-) -> Option<EquilibriumReport> {
-    let last = position.last?;
-    last.certificate.map(|certificate| EquilibriumReport {
-        certificate,
-        lowest_eigenvalue,
-        newton_iterations: work.iterations,
-        points: position.points,
-        floor: last.floor,
-        history: last.history,
-        states,
-        error,
-    })
 }

@@ -10,9 +10,7 @@ mod long_steps;
 mod lost_load;
 mod model_error;
 mod outcome;
-mod periodic;
 mod plan;
-mod points;
 mod record_stream;
 mod record_summary;
 mod recorder;
@@ -52,6 +50,7 @@ pub use unknowns::newton as solver;
 pub(crate) use unknowns::order;
 
 use crate::scene::{SceneProblem, Task};
+use recorder::Recorder;
 use sink::Clock;
 
 impl Plan<'_> {
@@ -70,10 +69,12 @@ impl Plan<'_> {
         let clock = Clock::new(saved.as_ref(), self.set_up_s());
         let (mut outcome, failure) = match (&assembly.scene.task, self.estimate()) {
             (Task::Dynamics(dynamics), Some(estimate)) => {
-                dynamics::run(assembly, dynamics, estimate, saved, clock, sink)?
+                let recorder = Recorder::new(assembly, dynamics, saved, clock, sink);
+                dynamics::run(assembly, dynamics, estimate, recorder)?
             }
             (Task::Brownian(task), Some(estimate)) => {
-                brownian::run(assembly, task, estimate, saved, clock, sink)?
+                let recorder = Recorder::new(assembly, &task.to_dynamics(), saved, clock, sink);
+                brownian::run(assembly, task, estimate, recorder)?
             }
             (Task::Equilibrium(settings), _) => {
                 equilibrium::run(assembly, (settings, model_error), saved, clock, sink)?

@@ -1,7 +1,6 @@
 //! Outcome of a run: status, cost, warnings and failures.
 
 use super::model_error::ModelErrorResult;
-use super::record_summary::StateWarnings;
 use super::slip::TurnLoss;
 use super::states::StableStates;
 use super::{HingeSlip, SaddlePush, Slip, StepError};
@@ -16,7 +15,7 @@ use std::fmt;
 use thiserror::Error;
 
 /// Status at the end of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// The equilibrium or the stop rule was reached.
@@ -27,11 +26,12 @@ pub enum Status {
     /// [`Failure`].
     Failed,
     /// The run was interrupted and can be resumed from its last record.
+    #[default]
     Interrupted,
 }
 
 /// Status and cost of a run.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Status at the end.
     pub status: Status,
@@ -81,42 +81,8 @@ impl Outcome {
     pub fn new(status: Status, wall_s: f64) -> Self {
         Self {
             status,
-            steps: 0,
-            force_evaluations: 0,
-            time_step_ns: None,
-            largest_frequency_rad_per_ns: None,
-            equilibrium: None,
-            at_rest: None,
-            begun_with_pn_nm: None,
-            largest_kinetic_pn_nm: 0.0,
-            saddles_left: 0,
-            pushes: Vec::new(),
-            events: Vec::new(),
-            jumps: 0,
-            beyond_use: Vec::new(),
-            beyond_range: Vec::new(),
-            unstable_twist: Vec::new(),
-            step_errors: Vec::new(),
-            plan_notes: Vec::new(),
-            failure: String::new(),
             wall_s,
-        }
-    }
-
-    pub(super) fn with(self, remarks: StateWarnings) -> Self {
-        let StateWarnings {
-            beyond_use,
-            beyond_range,
-            unstable_twist,
-            steps,
-        } = remarks;
-        let time_step_ns = self.time_step_ns.unwrap_or_default();
-        Self {
-            beyond_use,
-            beyond_range,
-            unstable_twist,
-            step_errors: steps.errors(time_step_ns),
-            ..self
+            ..Self::default()
         }
     }
 

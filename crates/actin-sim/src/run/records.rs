@@ -1,7 +1,8 @@
 //! Records in memory or read one by one from files.
 
+use crate::loads::loads_of;
 use crate::{Assembly, At, EnergyExchange, Part, Term};
-use actin_mechanics::{Loads, State, System};
+use actin_mechanics::{State, System};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io;
@@ -43,11 +44,7 @@ impl Record {
 
     /// Evaluates energies and residuals of a state, without observed quantities.
     pub fn new(system: &System, at: At, state: State) -> Self {
-        let mut loads = Loads::zeros(&state);
-        for interaction in system.interactions() {
-            interaction.add_loads(&state, &mut loads);
-        }
-        let residual = loads.residual(&state);
+        let residual = loads_of(system.interactions(), &state).residual(&state);
         let interactions = system.interactions().iter();
         let row = Row {
             at,

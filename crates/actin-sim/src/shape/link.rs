@@ -14,15 +14,7 @@ use actin_mechanics::State;
 /// # Source
 /// J. H. White, Am. J. Math. 91 (1969) 693; F. B. Fuller, PNAS 75 (1978) 3557.
 pub fn link(assembly: &Assembly, at: At) -> Option<f64> {
-    link_of(assembly, 0, at)
-}
-
-/// Link of a filament; see [`link`].
-///
-/// # Panics
-/// If the index is out of range.
-pub(crate) fn link_of(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
-    assembly.link_at(filament, assembly.path_parameter(at))
+    assembly.link_at(0, assembly.path_parameter(at))
 }
 
 /// Tolerance (turns) within which twist plus writhe is a whole number.

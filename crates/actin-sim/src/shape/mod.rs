@@ -24,7 +24,7 @@ pub use profile::{ProfilePoint, profile, profile_of};
 pub use ribbon::Ribbon;
 pub(crate) use ribbon::{from_rest, writhe_of};
 pub use section_loads::SectionLoad;
-pub(crate) use section_loads::SectionLoads;
+pub(crate) use section_loads::{Resultants, SectionLoads};
 pub(crate) use twist::twist;
 #[cfg(test)]
 pub(crate) use writhe::closed_writhe;

@@ -1,11 +1,11 @@
 //! The numbers of a summary, from the last record of a run.
 
 use super::{
-    AccuracySummary, EndReactions, EnergySummary, FilamentSummary, LateKinetic, LinkerSummary,
-    ResidualSummary, ShapeSummary, StabilitySummary, StatesSummary, Summary, ThermalSummary,
-    WorkSummary,
+    AccuracySummary, EndReactions, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
+    ShapeSummary, StabilitySummary, StatesSummary, Summary, ThermalSummary, WorkSummary,
 };
-use crate::observe::{Averages, Observers, View};
+use crate::loads::loads_of;
+use crate::observe::{Averages, Memory, View, observed_values};
 use crate::{Assembly, At, End, EnergyExchange, Outcome, Record, Row, Status, Task};
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, Residual};
@@ -19,10 +19,9 @@ impl Summary {
             Task::Equilibrium(_) => At::Path(0.0),
         };
         let state = assembly.rest.clone();
-        let observers = Observers::new(assembly);
         let energies_pn_nm = vec![0.0; assembly.terms.len()];
         let view = View::new(assembly, (at, &state), (&energies_pn_nm, 0.0));
-        let observed = observers.row(&view, &mut observers.memory());
+        let observed = observed_values(&view, &mut Memory::new(assembly));
         let row = Row {
             at,
             kinetic_pn_nm: 0.0,
@@ -81,7 +80,7 @@ impl Summary {
             shape: first.shape,
             residual: ResidualSummary::new(last),
             residual_floor: outcome.residual_floor().map(Into::into),
-            thermal: ThermalSummary::new(assembly, &kinetic_of(last)),
+            thermal: ThermalSummary::new(assembly, (last.kinetic_pn_nm, 1)),
             following: None,
             lowest_stiffness_eigenvalue: outcome.lowest_eigenvalue(),
             states: StatesSummary::from_outcome(assembly, outcome),
@@ -94,12 +93,6 @@ impl Summary {
             filaments,
         }
     }
-}
-
-fn kinetic_of(record: &Record) -> LateKinetic {
-    let mut kinetic = LateKinetic::new(1);
-    kinetic.add(record.kinetic_pn_nm);
-    kinetic
 }
 
 impl WorkSummary {
@@ -117,10 +110,7 @@ impl FilamentSummary {
     pub(super) fn all(assembly: &Assembly, last: &Record) -> Vec<Self> {
         // Computed for the state of the record, which may differ from the current state of the
         // system.
-        let mut loads = Loads::zeros(&last.state);
-        for interaction in assembly.system.interactions() {
-            interaction.add_loads(&last.state, &mut loads);
-        }
+        let loads = loads_of(assembly.system.interactions(), &last.state);
         let here = (last, assembly.path_parameter(last.at));
         let filaments = 0..assembly.filaments.len();
         filaments

@@ -29,7 +29,6 @@ use crate::{ModelError, Scatter, SectionChoice};
 use actin_assembly::Note;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use thermal::LateKinetic;
 
 /// Final results of a run. Field names are the keys of `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -292,10 +292,7 @@ impl Measurer {
     pub(super) fn values(&self, assembly: &Assembly, records: &[Record]) -> Values {
         let views: Vec<View<'_>> = records
             .iter()
-            .map(|record| {
-                let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
-                View::new(assembly, (record.at, &record.state), energies)
-            })
+            .map(|record| view(assembly, record))
             .collect();
         let of_item = |item: &Item| {
             let all = views.iter().zip(records);
@@ -318,7 +315,7 @@ impl Measurer {
         self.items.iter().map(of_item).collect()
     }
 
-    fn value(&self, item: &Item, view: &View<'_>, record: &Record) -> Vec<f64> {
+    pub(super) fn value(&self, item: &Item, view: &View<'_>, record: &Record) -> Vec<f64> {
         let assembly = view.assembly;
         match &item.kind {
             Kind::Tip(filament, end) => {
@@ -360,6 +357,11 @@ impl Measurer {
             }
         }
     }
+}
+
+pub(super) fn view<'a>(assembly: &'a Assembly, record: &'a Record) -> View<'a> {
+    let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
+    View::new(assembly, (record.at, &record.state), energies)
 }
 
 fn moments(item: &Item) -> [Item; 2] {

@@ -4,6 +4,7 @@ use super::model_error;
 use crate::scene::{Scene, SceneProblem, Task};
 use crate::{Assembly, Counts, Plan, Record, RunError, Sink, StableStates};
 use std::time::{Duration, Instant};
+use thiserror::Error;
 
 /// Time (s) below which runs are repeated; the shortest time counts.
 const SHORT_S: f64 = 0.05;
@@ -18,6 +19,14 @@ pub(super) struct Limits<'a> {
     pub records: Option<usize>,
     /// Returns true after an interruption by the user.
     pub is_interrupted: &'a dyn Fn() -> bool,
+}
+
+impl Limits<'_> {
+    pub(super) const NONE: Limits<'static> = Limits {
+        budget: None,
+        records: None,
+        is_interrupted: &|| false,
+    };
 }
 
 pub(super) struct RunResult {
@@ -35,11 +44,34 @@ pub(super) struct RunResult {
     pub is_cut: bool,
 }
 
-#[derive(Clone, Debug)]
+impl RunResult {
+    /// Returns the last record.
+    ///
+    /// # Panics
+    /// If a limit ended the run before its first record.
+    pub(super) fn last(&self) -> &Record {
+        self.records.last().expect("a completed run has a record")
+    }
+}
+
+#[derive(Clone, Debug, Error)]
 pub(super) enum TrialFailure {
+    #[error("interrupted")]
     Interrupted,
-    Refused(SceneProblem),
+    #[error(transparent)]
+    Refused(#[from] SceneProblem),
+    #[error("{0}")]
     Failed(String),
+}
+
+impl TrialFailure {
+    /// Returns the problem of sections that depend on the failed run.
+    pub(super) fn into_problem(self, rule: &str) -> SceneProblem {
+        match self {
+            Self::Refused(problem) => problem,
+            failure => SceneProblem::new("filament.sections", "", format!("{rule}: {failure}")),
+        }
+    }
 }
 
 /// Assembles and runs a scene; repeats short runs for their time.
@@ -55,8 +87,8 @@ pub(super) fn run(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, TrialF
 
 pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, TrialFailure> {
     let began = Instant::now();
-    let assembly = Assembly::build(scene).map_err(TrialFailure::Refused)?;
-    let plan = Plan::new(&assembly).map_err(TrialFailure::Refused)?;
+    let assembly = Assembly::build(scene)?;
+    let plan = Plan::new(&assembly)?;
     let mut recorder = Recorder {
         limits,
         began,
@@ -130,15 +162,5 @@ impl Sink for Recorder<'_> {
             .records
             .is_some_and(|most| self.records.len() >= most);
         self.is_cut || has_enough || (self.limits.is_interrupted)()
-    }
-}
-
-impl std::fmt::Display for TrialFailure {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Interrupted => write!(f, "interrupted"),
-            Self::Refused(problem) => write!(f, "{problem}"),
-            Self::Failed(cause) => write!(f, "{cause}"),
-        }
     }
 }
