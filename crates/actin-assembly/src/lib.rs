@@ -33,6 +33,7 @@ mod model_limits;
 mod models;
 mod notes;
 mod parts;
+mod problem;
 mod ramp;
 mod range;
 mod reaction;
@@ -67,6 +68,7 @@ pub use notes::Note;
 pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
 };
+pub use problem::problem_at;
 pub use ramp::Ramp;
 pub use range::{Fluctuations, LawExtrapolation, RangeWatch};
 pub use reaction::{Clamped, Reaction};

@@ -3,7 +3,7 @@
 use super::linkers::Nodes;
 use super::{Body, Builder, Strand};
 use crate::scene::{Couple, End, Force, LinkerSite, Load, Resultant, SceneProblem, path::UNSET};
-use crate::{BodyKind, Part, models};
+use crate::{BodyKind, Part, models, problem_at};
 use actin_cosserat::RodLayout;
 use actin_coupling::{ForceKind, LinkerError, RodPlace, Site, SiteForce};
 use actin_ellipsoid::Monomers;
@@ -19,10 +19,8 @@ impl Builder<'_> {
         let mut nodes = Nodes::default();
         for (i, load) in self.scene.loads.iter().enumerate() {
             let control = self.stock.state.add_control(UNSET);
-            let refused = |error: Box<dyn Error>| {
-                SceneProblem::new(format!("loads[{i}]"), "", error.to_string())
-            };
-            let interaction = self.load(load, control, &mut nodes).map_err(refused)?;
+            let interaction = self.load(load, control, &mut nodes);
+            let interaction = interaction.map_err(problem_at(format!("loads[{i}]")))?;
             let is_zero = load.written().1.iter().all(|x| *x == 0.0);
             if !is_zero && !self.moves(&*interaction, control) {
                 let rule = "acts only on held bodies, so it has no effect";

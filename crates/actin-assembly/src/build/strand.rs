@@ -5,7 +5,7 @@ use crate::built_axis::BuiltAxis;
 use crate::lattice::{Lattice, ResolvedSection, resolve};
 use crate::scene::{Clamp, End, Filament, Hinge, Hold, MAX_EXACT_INTEGER, SceneProblem, Section};
 use crate::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
-use crate::{law, models};
+use crate::{law, models, problem_at};
 use actin_cosserat::{CrossSection, EndShear, RodLayout, StraightRod, Walls};
 use actin_coupling::push_junction_frames;
 use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
@@ -443,7 +443,7 @@ impl<'a> Strand<'a> {
             &distances,
             &self.cross_section,
         )
-        .map_err(|error| junction_problem(&error))?;
+        .map_err(problem_at("filament.junction"))?;
         let side = if monomers_first { -0.5 } else { 0.5 };
         stock
             .frames
@@ -454,10 +454,6 @@ impl<'a> Strand<'a> {
         self.junction_frames.push(frames);
         Ok(())
     }
-}
-
-pub(super) fn junction_problem(error: &actin_coupling::JunctionError) -> SceneProblem {
-    SceneProblem::new("filament.junction", "", error.to_string())
 }
 
 /// Number of segments of each section; 0 for monomers.

@@ -258,7 +258,6 @@ impl Follower {
         let here = &position.checkpoint.here;
         let kinds = [&left.beginning.is_monomers, &is_monomers];
         let (to_monomers, to_rod) = (self.switched(kinds, true), self.switched(kinds, false));
-        let spans_nm = [to_monomers.as_slice(), &to_rod].concat();
         let mut stretch = self.again(StretchStart {
             index: left.beginning.index + 1,
             free_from: self.free_from(left, &is_monomers, here.step),
@@ -268,18 +267,15 @@ impl Follower {
         let transfer = Transfer {
             from: &left.assembly,
             to: &stretch.assembly,
-            spans_nm: &spans_nm,
+            to_monomers,
+            to_rod,
             step: here.step,
             time_ns: here.motion.time,
         };
         let old = left.assembly.system.state().in_motion(here.motion.clone());
         let (state, switch) = transfer.state(&old, &self.scene.task)?;
         stretch.beginning.switches_pn_nm += switch.energy_pn_nm;
-        stretch.beginning.switch = Some(Switch {
-            to_monomers,
-            to_rod,
-            ..switch
-        });
+        stretch.beginning.switch = Some(switch);
         let saved = begun(&stretch.assembly, state, (saved, position));
         Ok(NextStretch { stretch, saved })
     }

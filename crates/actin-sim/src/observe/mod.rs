@@ -77,6 +77,11 @@ pub(crate) fn observed_values(view: &View<'_>, memory: &mut Memory) -> Vec<f64> 
         .collect()
 }
 
+/// Numbers of an observable that does not depend on earlier records.
+pub(crate) fn current_values(one: Observable, view: &View<'_>) -> Vec<f64> {
+    values(one, view, &mut StoredPositions::default())
+}
+
 fn values(one: Observable, view: &View<'_>, past: &mut StoredPositions) -> Vec<f64> {
     match one {
         Observable::Tip { filament, end } => ends::tip(view, filament, end),

@@ -4,11 +4,11 @@ use super::dynamics::check_records;
 use super::estimate::LongestStep;
 use super::recorder::Recorder;
 use super::step_check::StepCheck;
-use super::steps::Steps;
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, long_steps};
 use crate::scene::{Brownian as Task, Flow, Fluid, SceneProblem, Task as AnyTask};
 use crate::{Assembly, SectionSpan};
+use actin_assembly::problem_at;
 use actin_brownian::{Brownian, Layout, Relaxation};
 use actin_integrate::{POSITION_VERLET, Run};
 use actin_mechanics::{System, Vector3};
@@ -95,8 +95,7 @@ fn relaxation(
 ) -> Result<Relaxation, SceneProblem> {
     let friction = assembly.friction(fluid)?;
     let layout = with_method(layout(assembly)?);
-    Relaxation::new(&assembly.system, layout, &friction)
-        .map_err(|error| SceneProblem::new("task", "", error.to_string()))
+    Relaxation::new(&assembly.system, layout, &friction).map_err(problem_at("task"))
 }
 
 /// Highest rate of relaxation (1/ns), found without factors of the whole stiffness of linked filaments.
@@ -119,31 +118,21 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
         Some(ns) => ns.max(of_midpoints),
     };
     let wanted = task.time_step_ns.unwrap_or(default);
-    let steps = Steps::new(&motion, wanted.min(motion.duration_ns))?;
-    task.flow.check_step(steps.length_ns)?;
-    check_records(assembly, &motion, &steps)?;
-    assembly.check_rates(steps.length_ns)?;
-    let longest_sound_step = motion.thermal.map(|_| LongestStep {
+    let mut estimate = Estimate::in_steps(&motion, wanted.min(motion.duration_ns))?;
+    task.flow.check_step(estimate.time_step_ns)?;
+    check_records(assembly, &motion, &estimate)?;
+    assembly.check_rates(estimate.time_step_ns)?;
+    estimate.longest_sound_step = motion.thermal.map(|_| LongestStep {
         ns: default,
         of_midpoints_ns: of_midpoints,
         has_bonds: assembly.counts().bonds > 0,
     });
-    check_length(wanted, longest_sound_step.as_ref())?;
-    let mut estimate = Estimate {
-        largest_frequency_rad_per_ns: 0.0,
-        stability_limit_ns: f64::INFINITY,
-        time_step_ns: steps.length_ns,
-        steps: steps.count,
-        steps_between_records: steps.between_records,
-        record_every_ns: steps.record_every_ns,
-        force_evaluations: 0,
-        longest_sound_step,
-    };
+    check_length(wanted, estimate.longest_sound_step.as_ref())?;
     let iterations = match motion.thermal {
         None => ITERATIONS_WITHOUT_NOISE,
         Some(_) => ITERATIONS[usize::from(estimate.has_random_stress())],
     };
-    estimate.force_evaluations = steps.count * iterations;
+    estimate.force_evaluations = estimate.steps * iterations;
     Ok(estimate)
 }
 
@@ -195,8 +184,7 @@ impl Estimate {
         let friction = assembly.friction(&task.drag)?;
         let noise = task.thermal();
         let noise = noise.map_or((0.0, 0), |t| (t.energy_pn_nm(), t.seed));
-        let stepper = Brownian::new(system, layout, friction, noise)
-            .map_err(|error| SceneProblem::new("task", "", error.to_string()))?;
+        let stepper = Brownian::new(system, layout, friction, noise).map_err(problem_at("task"))?;
         Ok(if self.has_random_stress() {
             let held = held_off_axis(assembly);
             stepper.with_spinning_frames(system, |frame| !held[assembly.filament_of_frame(frame)])
@@ -289,7 +277,7 @@ pub(super) fn run<'a>(
         .and_then(|run| run.observing_every(estimate.steps_between_records))
         // Long steps could let filaments pass through each other within a few steps.
         .and_then(|run| run.checking_every(1))
-        .map_err(|error| SceneProblem::new("task", "", error.to_string()))?
+        .map_err(problem_at("task"))?
         .stopping_from(recorder.drive(&mut system));
     Ok(recorder.run(estimate, (&run, Some(&mut stepper)), system))
 }

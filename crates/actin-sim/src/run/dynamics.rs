@@ -3,11 +3,11 @@
 use super::bound::kinetic_limit;
 use super::estimate::{Estimate, composition_of};
 use super::recorder::Recorder;
-use super::steps::Steps;
 use super::unknowns::layout;
 use super::{Failure, Outcome};
 use crate::scene::{Dynamics, Filament, Fluid, RodLaw, SceneProblem, StopTolerances};
 use crate::{Assembly, memory};
+use actin_assembly::problem_at;
 use actin_brownian::Langevin;
 use actin_integrate::{Bath, Composition, Drag, Run, Stepper};
 
@@ -49,18 +49,14 @@ fn estimate_at(
     if wanted > limit && !dynamics.allow_unstable_step {
         return Err(unstable(scheme, wanted, limit, frequency));
     }
-    let steps = Steps::new(dynamics, wanted)?;
-    check_records(assembly, dynamics, &steps)?;
-    assembly.check_rates(steps.length_ns)?;
+    let estimate = Estimate::in_steps(dynamics, wanted)?;
+    check_records(assembly, dynamics, &estimate)?;
+    assembly.check_rates(estimate.time_step_ns)?;
     Ok(Estimate {
         largest_frequency_rad_per_ns: frequency,
         stability_limit_ns: limit,
-        time_step_ns: steps.length_ns,
-        steps: steps.count,
-        steps_between_records: steps.between_records,
-        record_every_ns: steps.record_every_ns,
-        force_evaluations: steps.count * scheme.force_evaluations_per_step() as u64,
-        longest_sound_step: None,
+        force_evaluations: estimate.steps * scheme.force_evaluations_per_step() as u64,
+        ..estimate
     })
 }
 
@@ -116,11 +112,10 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Sc
 pub(super) fn check_records(
     assembly: &Assembly,
     dynamics: &Dynamics,
-    steps: &Steps,
+    estimate: &Estimate,
 ) -> Result<(), SceneProblem> {
-    // The first record and the last one are included.
-    let records = (steps.count / steps.between_records + 1) as f64;
-    let every_ns = dynamics.record_every_ns.unwrap_or(steps.record_every_ns);
+    let records = estimate.records() as f64;
+    let every_ns = dynamics.record_every_ns.unwrap_or(estimate.record_every_ns);
     let key = ("task.record_every_ns", format!("{every_ns:?}"));
     memory::check_records(assembly, records, key, |bodies| {
         format!("{records:.2e} records of {bodies} bodies need")
@@ -179,24 +174,21 @@ pub(super) fn run(
 }
 
 fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
-    let refused = |key: &str, error: &dyn std::error::Error| {
-        SceneProblem::new(format!("task.{key}"), "", error.to_string())
-    };
     let rates = dynamics.drag.rates();
     let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns)
-        .map_err(|error| refused("drag", &error))?;
+        .map_err(problem_at("task.drag"))?;
     let step = estimate.time_step_ns;
     let scheme = composition_of(dynamics);
     let run = Run::new(scheme, step, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))
-        .map_err(|error| refused("time_step_ns", &error))?;
+        .map_err(problem_at("task.time_step_ns"))?;
     // Steps in a fluid include their own noise.
     let bath = (dynamics.thermal.as_ref()).filter(|_| dynamics.drag.fluid().is_none());
     let run = match bath {
         None => run.with_drag(drag),
         Some(thermal) => Bath::new(drag, thermal.energy_pn_nm(), thermal.seed)
             .map(|bath| run.with_bath(bath))
-            .map_err(|error| refused("thermal.temperature_k", &error))?,
+            .map_err(problem_at("task.thermal.temperature_k"))?,
     };
     let Some(StopTolerances {
         force_pn,
@@ -208,7 +200,7 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
     };
     actin_integrate::StopRule::new(force_pn, torque_pn_nm, kinetic_pn_nm)
         .map(|rule| run.with_stop_rule(rule))
-        .map_err(|error| refused("stop", &error))
+        .map_err(problem_at("task.stop"))
 }
 
 fn langevin(
@@ -219,6 +211,5 @@ fn langevin(
     let thermal = dynamics.thermal;
     let noise = thermal.map_or((0.0, 0), |t| (t.energy_pn_nm(), t.seed));
     let friction = assembly.friction(fluid)?;
-    Langevin::new(&assembly.system, layout(assembly)?, friction, noise)
-        .map_err(|error| SceneProblem::new("task", "", error.to_string()))
+    Langevin::new(&assembly.system, layout(assembly)?, friction, noise).map_err(problem_at("task"))
 }

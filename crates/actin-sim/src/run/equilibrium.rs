@@ -13,6 +13,7 @@ use super::{Failure, Outcome, Progress, Record, RecordSummary, RunPosition, Stat
 use crate::Assembly;
 use crate::At;
 use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
+use actin_assembly::problem_at;
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
     PathError, PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
@@ -123,7 +124,7 @@ fn path(settings: &Settings) -> Result<Path, SceneProblem> {
         },
         ..PathOptions::default()
     };
-    Path::new(options).map_err(|error| SceneProblem::new("task", "", error.to_string()))
+    Path::new(options).map_err(problem_at("task"))
 }
 
 struct Follower<'a> {

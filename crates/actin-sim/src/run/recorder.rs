@@ -11,8 +11,8 @@ use super::{
 };
 use crate::At;
 use crate::scene::{Dynamics, Task};
-use crate::{Assembly, EnergyExchange, LinkerEvent};
-use actin_assembly::{Log, Ramp};
+use crate::{Assembly, LinkerEvent};
+use actin_assembly::Log;
 use actin_equilibrium::Certificate;
 use actin_integrate::{
     Checkpoint, DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
@@ -75,11 +75,12 @@ impl<'a> Recorder<'a> {
             None => (None, Vec::new(), Vec::new()),
             Some(motion) => (Some(motion.checkpoint), motion.pushes, motion.events),
         };
+        let hinges = HingeWatch::new(assembly);
         Self {
             taken: RecordStream::new(assembly, recorded, sink),
             pushes,
             end_ns: dynamics.duration_ns,
-            rest_from_ns: Ramp::from_assembly(assembly).map_or(0.0, |ramp| ramp.duration()),
+            rest_from_ns: hinges.duration_ns(),
             most_pushes: dynamics.leave_saddles,
             clock,
             judge: RestJudge::new(assembly, dynamics),
@@ -95,7 +96,7 @@ impl<'a> Recorder<'a> {
             is_interrupted: false,
             assembly,
             log: Arc::new(Mutex::new(events)),
-            hinges: HingeWatch::new(assembly),
+            hinges,
             behind_switch,
             look_every: match assembly.scene.task {
                 // Overdamped steps are long.
@@ -109,7 +110,7 @@ impl<'a> Recorder<'a> {
 
     /// Installs the path of the scene as the drive of `system` and returns its duration (ns).
     pub(super) fn drive(&self, system: &mut System) -> f64 {
-        if let Some(drive) = self.hinges.beside(Ramp::from_assembly(self.assembly)) {
+        if let Some(drive) = self.hinges.to_drive() {
             system.set_drive(drive);
         }
         self.rest_from_ns
@@ -357,17 +358,10 @@ impl Observer for Recorder<'_> {
 
 pub(crate) fn record(moment: &mut Moment<'_>) -> Record {
     let residual = moment.residual();
-    let row = Row {
-        at: At::Time(moment.time),
-        kinetic_pn_nm: moment.kinetic_energy(),
-        residual_force_pn: residual.force,
-        residual_torque_pn_nm: residual.torque,
-        booked: EnergyExchange::default(),
-        energies_pn_nm: moment.energies(),
-        observed: Vec::new(),
-    };
+    let kinetic_pn_nm = moment.kinetic_energy();
+    let at = At::Time(moment.time);
     Record {
-        row,
+        row: Row::new(at, kinetic_pn_nm, residual, moment.energies()),
         state: moment.state().clone(),
     }
 }

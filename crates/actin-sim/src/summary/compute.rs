@@ -6,7 +6,7 @@ use super::{
 };
 use crate::loads::loads_of;
 use crate::observe::{Averages, Memory, View, observed_values};
-use crate::{Assembly, At, End, EnergyExchange, Outcome, Record, Row, Status, Task};
+use crate::{Assembly, At, End, Outcome, Record, Row, Status, Task};
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, Residual};
 
@@ -23,13 +23,8 @@ impl Summary {
         let view = View::new(assembly, (at, &state), (&energies_pn_nm, 0.0));
         let observed = observed_values(&view, &mut Memory::new(assembly));
         let row = Row {
-            at,
-            kinetic_pn_nm: 0.0,
-            residual_force_pn: 0.0,
-            residual_torque_pn_nm: 0.0,
-            booked: EnergyExchange::default(),
-            energies_pn_nm,
             observed,
+            ..Row::new(at, 0.0, Residual::default(), energies_pn_nm)
         };
         let record = Record { row, state };
         Self::new(assembly, &record, &Outcome::new(Status::Interrupted, 0.0))

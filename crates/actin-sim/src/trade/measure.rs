@@ -1,8 +1,8 @@
 //! Compared quantities: numbers and vectors of records, defined for every resolution.
 
-use crate::observe::{View, observed_columns};
+use crate::observe::{View, current_values, observed_columns};
 use crate::scene::{
-    End, FreeTranslation, Linker, Quantity, Resultant, Scene, SceneProblem, Setting,
+    End, FreeTranslation, Linker, Observable, Quantity, Resultant, Scene, SceneProblem, Setting,
 };
 use crate::shape::Ribbon;
 use crate::shape::axis::Axis;
@@ -142,12 +142,11 @@ impl Moment {
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     Tip(usize, End),
-    Height(usize),
-    Force(usize),
-    Couple(usize),
+    /// Numbers of an observable at these indices.
+    Observed(Observable, Range<usize>),
     Energy,
     Curvature(usize, Vec<f64>),
-    Linker(usize),
+    /// Observed quantities of the scene in these columns.
     Columns(Range<usize>),
 }
 
@@ -322,28 +321,23 @@ impl Measurer {
                 let place = |state| assembly.tip_of(*filament, state, *end);
                 self.vector(place(view.state) - place(&assembly.rest))
             }
-            Kind::Height(filament) => vec![view.ribbon(*filament).largest_distance_nm()],
-            Kind::Force(clamp) | Kind::Couple(clamp) => {
-                let reaction = assembly.clamps[*clamp].reaction(view.state, view.loads());
-                self.vector(match item.kind {
-                    Kind::Force(_) => reaction.force_pn,
-                    _ => reaction.torque_pn_nm,
-                })
-            }
             Kind::Energy => {
                 let terms = assembly.filaments.iter().flat_map(|f| f.terms.clone());
                 vec![terms.map(|term| record.energies_pn_nm[term]).sum()]
             }
             Kind::Curvature(filament, places) => turns(view.ribbon(*filament), places),
-            Kind::Linker(linker) => {
-                let (linker, is_bound) = assembly.linker_in(*linker, view.state);
-                let force = linker.force(view.state);
-                self.vector(if is_bound { force } else { Vector3::zeros() })
+            Kind::Observed(one, columns) => {
+                self.components(&current_values(*one, view)[columns.clone()])
             }
-            Kind::Columns(columns) => match &record.observed[columns.clone()] {
-                [x, y, z] => self.vector(Vector3::new(*x, *y, *z)),
-                numbers => numbers.to_vec(),
-            },
+            Kind::Columns(columns) => self.components(&record.observed[columns.clone()]),
+        }
+    }
+
+    /// Returns three numbers as a vector, and other numbers unchanged.
+    fn components(&self, numbers: &[f64]) -> Vec<f64> {
+        match numbers {
+            [x, y, z] => self.vector(Vector3::new(*x, *y, *z)),
+            numbers => numbers.to_vec(),
         }
     }
 
@@ -406,10 +400,14 @@ fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
                 .collect()
         }
         Measure::Height => filaments()
-            .map(|f| Item::new(of("height", f), "nm", Kind::Height(f)))
+            .map(|filament| {
+                // The largest distance is the third number of the contour.
+                let kind = Kind::Observed(Observable::Contour { filament }, 2..3);
+                Item::new(of("height", filament), "nm", kind)
+            })
             .collect(),
-        Measure::EndForce => of_clamps(assembly, "force", "pN", Kind::Force),
-        Measure::EndCouple => of_clamps(assembly, "couple", "pN nm", Kind::Couple),
+        Measure::EndForce => of_clamps(assembly, "force", "pN", 0..3),
+        Measure::EndCouple => of_clamps(assembly, "couple", "pN nm", 3..6),
         Measure::Energy => vec![Item::new("energy".to_owned(), "pN nm", Kind::Energy)],
         Measure::Curvature(at_nm) => filaments()
             .filter(|f| at_nm.is_none() || *f == 0)
@@ -419,7 +417,10 @@ fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
             .collect(),
         Measure::LinkerForce(one) => (0..assembly.linkers.len())
             .filter(|linker| one.is_none_or(|one| one == *linker))
-            .map(|linker| Item::new(format!("linker {linker}"), "pN", Kind::Linker(linker)))
+            .map(|linker| {
+                let kind = Kind::Observed(Observable::Linker { linker }, 0..3);
+                Item::new(format!("linker {linker}"), "pN", kind)
+            })
             .collect(),
         Measure::Observable(name) => columns(&observed_columns(assembly), name),
     }
@@ -436,16 +437,19 @@ fn of_clamps(
     assembly: &Assembly,
     what: &str,
     unit: &'static str,
-    kind: fn(usize) -> Kind,
+    numbers: Range<usize>,
 ) -> Vec<Item> {
-    let clamps = assembly.clamps.iter().enumerate();
-    let named = clamps.map(|(i, clamp)| {
+    let named = assembly.clamps.iter().map(|clamp| {
         let end = match clamp.end {
             End::Start => "start",
             End::End => "end",
         };
         let name = name_of(assembly, &format!("{end} {what}"), clamp.filament);
-        Item::new(name, unit, kind(i))
+        let reaction = Observable::EndReaction {
+            filament: clamp.filament,
+            end: clamp.end,
+        };
+        Item::new(name, unit, Kind::Observed(reaction, numbers.clone()))
     });
     named.collect()
 }

@@ -71,7 +71,7 @@ impl<'a> Setup<'a> {
             ("every monomer", self.full.scene.clone())
         };
         let sample = self.run(name, &scene)?;
-        let share = match (sample.is_cut, self.full.estimate) {
+        let share = match (sample.last_run.is_cut, self.full.estimate) {
             (false, _) => 1.0,
             (true, Some(all)) => sample.last_run.records.len() as f64 / all.records() as f64,
             (true, None) => 0.0,
@@ -95,7 +95,7 @@ impl<'a> Setup<'a> {
         for Proposal { name, scene } in ladder::references(&self.full) {
             let sample = self.run(&name, &scene)?;
             spent_s += sample.wall_s;
-            if sample.is_cut {
+            if sample.last_run.is_cut {
                 break;
             }
             let found = self.reference_run((&name, scene), sample, best.as_ref(), spent_s);
@@ -135,7 +135,7 @@ impl<'a> Setup<'a> {
         let reference = Reference {
             name: name.to_owned(),
             scene,
-            counts: sample.counts,
+            counts: sample.counts(),
             wall_s: sample.wall_s,
             is_settled: worst(&own_errors) <= SETTLED * self.options.error,
             own_errors,

@@ -2,7 +2,7 @@
 
 use super::model_error;
 use crate::scene::{Scene, SceneProblem, Task};
-use crate::{Assembly, Counts, Plan, Record, RunError, Sink, StableStates};
+use crate::{Assembly, Plan, Record, RunError, Sink, StableStates};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
@@ -33,7 +33,6 @@ pub(super) struct RunResult {
     pub assembly: Assembly,
     /// Compared records.
     pub records: Vec<Record>,
-    pub counts: Counts,
     /// Time of assembly and run (s).
     pub wall_s: f64,
     /// Number of force evaluations.
@@ -108,11 +107,9 @@ pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, T
         error @ RunError::Failed(_) => TrialFailure::Failed(error.to_string()),
     })?;
     let records = compared(scene, records);
-    let counts = assembly.counts();
     Ok(RunResult {
         assembly,
         records,
-        counts,
         wall_s,
         evaluations: outcome.force_evaluations,
         states: outcome.equilibrium.and_then(|report| report.states),

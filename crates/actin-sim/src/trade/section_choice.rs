@@ -171,7 +171,7 @@ impl<'a> Choice<'a> {
         let limits = self.wanted.iter().zip(&errors);
         let ratios = limits.map(|((_, limit), error)| error / limit);
         let excess = ratios.fold(0.0, f64::max);
-        let counts = result.counts;
+        let counts = result.assembly.counts();
         let each = counts.bonds as f64 + BONDS_PER_SEGMENT * counts.segments as f64;
         Trial {
             name: name.to_owned(),

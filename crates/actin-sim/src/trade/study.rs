@@ -240,8 +240,8 @@ impl<'a> Study<'a> {
         };
         match self.run(&candidate.name, &candidate.scene) {
             Ok(sample) => {
-                (candidate.counts, candidate.wall_s) = (sample.counts, sample.wall_s);
-                if sample.is_cut {
+                (candidate.counts, candidate.wall_s) = (sample.counts(), sample.wall_s);
+                if sample.last_run.is_cut {
                     candidate.failure = Some("exceeds the budget".to_owned());
                 } else {
                     candidate.errors = self.errors(&sample.values);
