@@ -5,7 +5,7 @@
 //! middle between monomers 0 and 1. This choice depends on the clamps alone, so that a change of
 //! resolution moves no monomer.
 
-use crate::scene::{ClampedEnds, End, Filament, MAX_EXACT_INTEGER, Scene, SceneProblem, Section};
+use crate::scene::{Filament, MAX_EXACT_INTEGER, SceneProblem, Section};
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ResolvedSection {
@@ -84,43 +84,6 @@ pub(super) fn resolve(
             check(i, &sections[i], resolved)
         })
         .collect()
-}
-
-/// Boundaries (nm) of cells of filament 0, whose length `length_nm` is rounded to whole monomers.
-///
-/// Each cell holds the number of whole monomers that brings it nearest to `cell_nm`. The last cell
-/// takes the remainder.
-pub(crate) fn cells_nm(
-    scene: &Scene,
-    length_nm: f64,
-    cell_nm: f64,
-) -> Result<Vec<f64>, SceneProblem> {
-    let held = ClampedEnds::new(scene);
-    let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
-    let mut filament = scene.filament.clone();
-    filament.sections = vec![monomers_between(0.0, length_nm)].into();
-    let length_nm = resolve(&filament, is_held)?[0].to_nm;
-    let lattice = Lattice::new(&scene.filament, is_held);
-    let monomers = (cell_nm / lattice.rise_nm).round();
-    let cells = (length_nm / (monomers * lattice.rise_nm)).round().max(1.0);
-    let half = 0.5 * lattice.rise_nm;
-    let places = (1..)
-        .map(|k| f64::from(k) * monomers)
-        .take_while(|&j| j < (cells - 0.5) * monomers)
-        .map(|j| lattice.origin_nm + j * lattice.rise_nm + half);
-    let mut boundaries = vec![0.0];
-    boundaries.extend(places);
-    boundaries.push(length_nm);
-    Ok(boundaries)
-}
-
-/// Section of unaltered monomers.
-pub(crate) fn monomers_between(from_nm: f64, to_nm: f64) -> Section {
-    Section::Ellipsoids {
-        from_nm,
-        to_nm,
-        altered: None,
-    }
 }
 
 fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), SceneProblem> {

@@ -2,16 +2,14 @@
 //!
 //! Sweeps over keys and output to directories are in `actin-sweep`.
 
-mod error;
 mod pool;
 #[cfg(test)]
 mod tests;
 
-pub use error::EnsembleError;
-
 use crate::scene::RandomPart;
-use crate::{Outcome, Plan, Record, Scene, Sink, Status, Trajectory};
+use crate::{Outcome, Plan, Record, RunError, Scene, Sink, Status, Trajectory};
 use std::num::NonZeroUsize;
+use thiserror::Error;
 
 /// Replicas of a scene with different seeds.
 ///
@@ -63,6 +61,28 @@ pub struct Replica<'a> {
     pub sink: Trajectory,
     /// Outcome of the run.
     pub outcome: Outcome,
+}
+
+/// Error of an ensemble.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EnsembleError {
+    /// All replicas would be identical.
+    #[error(
+        "the scene has nothing that depends on a seed (bonds with anchors: Independent, thermal noise, \
+         imperfections): all replicas would be identical"
+    )]
+    NothingDrawn,
+    /// A replica could not be built, or failed.
+    #[error("replica {index} (seed {seed}): {error}")]
+    Replica {
+        /// Index of the replica.
+        index: usize,
+        /// Seed of the replica.
+        seed: u64,
+        /// Cause of the failure.
+        error: RunError,
+    },
 }
 
 impl<'a> Ensemble<'a> {

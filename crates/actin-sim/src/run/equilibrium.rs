@@ -1,8 +1,6 @@
 //! Equilibria by Newton's method, from the state as built or along the path of the scene.
 
-use super::lost_load::lost_load;
-use super::model_error::MeasureModelError;
-use super::outcome::EquilibriumReport;
+use super::outcome::{EquilibriumReport, MeasureModelError};
 use super::record_stream::RecordStream;
 use super::rest::{is_saddle, saddle};
 use super::sink::{Clock, PathPosition, SavedRun, Sink, SolveReport};
@@ -12,7 +10,7 @@ use super::unknowns::newton;
 use super::{Failure, Outcome, Progress, Record, RecordSummary, RunPosition, Status};
 use crate::Assembly;
 use crate::At;
-use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
+use crate::scene::{Equilibrium as Settings, Load, Resultant, SceneProblem};
 use actin_assembly::problem_at;
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
@@ -20,6 +18,9 @@ use actin_equilibrium::{
 };
 use actin_mechanics::State;
 use std::ops::ControlFlow;
+
+/// Largest resolved ratio of residual to load.
+const RESOLVED: f64 = 0.01;
 
 pub(super) fn run(
     assembly: &Assembly,
@@ -34,14 +35,14 @@ pub(super) fn run(
     let failure = follower.follow_to_the_end(&mut newton, &mut state)?;
     let of_path = newton.work();
     let states = match failure {
-        None => follower.look_around(&mut newton, &state)?,
+        None => follower.search_states(&mut newton, &state)?,
         Some(_) => None,
     };
     // An interruption after the last equilibrium has no effect.
     let is_interrupted = follower.is_interrupted && failure.is_none();
     let Follower {
         position,
-        taken,
+        records,
         clock,
         ..
     } = follower;
@@ -80,7 +81,7 @@ pub(super) fn run(
         equilibrium: certificate.zip(position.last).map(report),
         ..Outcome::new(status, clock.wall_s())
     };
-    Ok((taken.into_outcome(outcome), failure))
+    Ok((records.into_outcome(outcome), failure))
 }
 
 fn place(assembly: &Assembly, stages_done: usize) -> String {
@@ -130,7 +131,7 @@ fn path(settings: &Settings) -> Result<Path, SceneProblem> {
 struct Follower<'a> {
     assembly: &'a Assembly,
     settings: &'a Settings,
-    taken: RecordStream<'a>,
+    records: RecordStream<'a>,
     clock: Clock,
     /// Position for resuming the run.
     position: PathPosition,
@@ -168,7 +169,7 @@ impl<'a> Follower<'a> {
         Self {
             assembly,
             settings,
-            taken: RecordStream::new(assembly, recorded, sink),
+            records: RecordStream::new(assembly, recorded, sink),
             clock,
             position,
             is_interrupted: false,
@@ -183,7 +184,7 @@ impl<'a> Follower<'a> {
         state: &mut State,
     ) -> Result<Option<Failure>, SceneProblem> {
         let ended = self.follow(newton, state)?;
-        if let Some(lost) = self.taken.lost.take() {
+        if let Some(lost) = self.records.lost.take() {
             self.is_interrupted = false;
             state.set_motion(&self.position.motion);
             self.checkpoint();
@@ -204,25 +205,25 @@ impl<'a> Follower<'a> {
             }
             None => {
                 self.is_interrupted = false;
-                self.look_closer(newton, state);
-                self.flaw()
+                self.refine_certificate(newton, state);
+                self.final_failure()
             }
         };
         self.checkpoint();
         Ok(failure)
     }
 
-    fn look_around(
+    fn search_states(
         &mut self,
         newton: &mut Newton,
         state: &State,
     ) -> Result<Option<StableStates>, SceneProblem> {
         let starts = self.settings.states;
-        let last = self.taken.recorded.last().map(|last| last.at);
+        let last = self.records.last().map(|last| last.at);
         let Some(at) = last.filter(|_| starts > 0 && !self.is_interrupted) else {
             return Ok(None);
         };
-        let tools = (newton, &mut self.taken);
+        let tools = (newton, &mut self.records);
         let states = search(self.assembly, tools, (state, at), starts)
             .map_err(|error| SceneProblem::new("task.states", starts, error.to_string()))?;
         self.is_interrupted = states.is_none();
@@ -231,7 +232,7 @@ impl<'a> Follower<'a> {
 
     /// Repeats the certificate of an apparent saddle at the smallest residual, because a residual
     /// within the tolerance can change the sign of a neutral mode.
-    fn look_closer(&mut self, newton: &mut Newton, state: &State) {
+    fn refine_certificate(&mut self, newton: &mut Newton, state: &State) {
         let certificate = self
             .position
             .last
@@ -248,8 +249,8 @@ impl<'a> Follower<'a> {
         }
     }
 
-    fn flaw(&self) -> Option<Failure> {
-        let last = self.taken.recorded.last();
+    fn final_failure(&self) -> Option<Failure> {
+        let last = self.records.last();
         let lost = last.and_then(|last| lost_load(self.assembly, last));
         lost.map(Failure::LoadBelowResidual).or_else(|| {
             let certificate = self.position.last.as_ref()?.certificate?;
@@ -277,7 +278,7 @@ impl<'a> Follower<'a> {
             let path = path(self.settings)?;
             let mut stages = self.position.stage..self.assembly.drive.stages();
             stages.try_for_each(|stage| {
-                if self.taken.lost.is_some() {
+                if self.records.lost.is_some() {
                     return Ok(());
                 }
                 self.stage(&path, newton, state, stage)
@@ -297,15 +298,18 @@ impl<'a> Follower<'a> {
         let attempts = self.settings.leave_saddles;
         if let Some(mut near) = near_equilibrium(self.assembly) {
             newton.carry_along(true);
-            let solved =
-                newton.minimize_observed(&mut near, interactions, attempts, &mut |_| self.go_on());
+            let solved = newton.minimize_observed(&mut near, interactions, attempts, &mut |_| {
+                self.check_interruption()
+            });
             newton.carry_along(false);
             if solved.is_ok() || self.is_interrupted {
                 *state = near;
                 return solved;
             }
         }
-        newton.minimize_observed(state, interactions, attempts, &mut |_| self.go_on())
+        newton.minimize_observed(state, interactions, attempts, &mut |_| {
+            self.check_interruption()
+        })
     }
 
     fn solve(&mut self, newton: &mut Newton, state: &mut State) -> Result<(), Box<PathFailure>> {
@@ -324,7 +328,7 @@ impl<'a> Follower<'a> {
                 if !self.is_interrupted {
                     // Keep the best state.
                     let best = Record::of_equilibrium(&self.assembly.system, 0.0, state);
-                    self.taken.take_unchecked(best);
+                    self.records.take_unchecked(best);
                 }
                 Err(Box::new(PathFailure {
                     parameter: 0.0,
@@ -362,7 +366,7 @@ impl<'a> Follower<'a> {
 
     fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) -> ControlFlow<()> {
         if !self
-            .taken
+            .records
             .take(Record::of_equilibrium(&self.assembly.system, u, state))
         {
             return ControlFlow::Break(());
@@ -382,7 +386,7 @@ impl<'a> Follower<'a> {
     }
 
     /// Saves the position for resuming: at `point`, or at the start of the next stage.
-    fn note(&mut self, point: &PathPoint<'_>) {
+    fn save_position(&mut self, point: &PathPoint<'_>) {
         let is_end = point.parameter >= 1.0;
         let position = &mut self.position;
         position.stage += usize::from(is_end);
@@ -395,16 +399,16 @@ impl<'a> Follower<'a> {
         let position = RunPosition::Path(Box::new(self.position.clone()));
         let wall_s = self.clock.wall_s();
         if self.position.points > 0 {
-            self.taken.checkpoint(&position, wall_s);
+            self.records.checkpoint(&position, wall_s);
         } else {
             // Best state of a failed attempt; the next attempt starts without it.
             let none = RecordSummary::new(self.assembly);
-            self.taken.sink.checkpoint(&position, &none, wall_s);
+            self.records.sink.checkpoint(&position, &none, wall_s);
         }
     }
 
-    fn go_on(&mut self) -> ControlFlow<()> {
-        self.is_interrupted = self.taken.sink.is_interrupted();
+    fn check_interruption(&mut self) -> ControlFlow<()> {
+        self.is_interrupted = self.records.sink.is_interrupted();
         if self.is_interrupted {
             return ControlFlow::Break(());
         }
@@ -421,20 +425,41 @@ impl PathObserver for Follower<'_> {
             self.record(u, point.state, point.equilibrium)?;
         }
         self.position.jumps += usize::from(point.jumped);
-        self.note(point);
-        self.taken.sink.progress(&Progress {
+        self.save_position(point);
+        self.records.sink.progress(&Progress {
             at: At::Path(u),
             end: self.assembly.drive.stages() as f64,
             steps: self.position.points as u64,
             residual_force_pn: point.equilibrium.residual.force,
         });
-        if self.taken.sink.is_checkpoint_due() {
+        if self.records.sink.is_checkpoint_due() {
             self.checkpoint();
         }
-        self.go_on()
+        self.check_interruption()
     }
 
     fn iterate(&mut self, _step: &Iteration) -> ControlFlow<()> {
-        self.go_on()
+        self.check_interruption()
     }
+}
+
+/// Returns an error for the first load that is not large compared with the residual.
+fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProblem> {
+    let loads = assembly.scene.loads.iter().enumerate();
+    loads.into_iter().find_map(|(i, load)| {
+        let factor = last.state.controls[assembly.load_controls()[i]];
+        let (size, residual, unit) = match load.resultant(&assembly.scene) {
+            Resultant::Force(force) => (force.norm(), last.residual_force_pn, "pN"),
+            Resultant::Couple(couple) => (couple.norm(), last.residual_torque_pn_nm, "pN nm"),
+        };
+        let size = size * factor.abs();
+        let is_lost = size > 0.0 && residual > RESOLVED * size;
+        is_lost.then(|| {
+            let rule = format!(
+                "is below 100 times the residual of {residual:.1e} {unit}, so the equilibrium does not \
+                 resolve its effect; use a larger load"
+            );
+            load.problem(i, rule)
+        })
+    })
 }

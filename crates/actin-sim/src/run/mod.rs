@@ -1,14 +1,11 @@
 //! Runs of scenes: equilibria and motions in time, with their records.
 
-mod bound;
 mod brownian;
 mod dynamics;
 mod equilibrium;
 mod estimate;
 mod hinge;
 mod long_steps;
-mod lost_load;
-mod model_error;
 mod outcome;
 mod plan;
 mod record_stream;
@@ -28,9 +25,10 @@ pub use brownian::RelaxationTimes;
 pub(crate) use estimate::composition_of;
 pub use estimate::{Estimate, LongestStep, composition};
 pub use hinge::HingeSlip;
-pub(crate) use model_error::{MeasureModelError, ModelErrorResult};
-pub use model_error::{ModelError, Scatter};
-pub use outcome::{EquilibriumReport, FailedRun, Failure, Outcome, RunError, Status};
+pub use outcome::{
+    EquilibriumReport, FailedRun, Failure, ModelError, Outcome, RunError, Scatter, Status,
+};
+pub(crate) use outcome::{MeasureModelError, ModelErrorResult};
 pub use plan::Plan;
 pub use record_summary::{RecordSummary, RunStatistics};
 pub(crate) use recorder::record;

@@ -59,8 +59,12 @@ impl<'a> RecordStream<'a> {
     /// Returns `true` if an unrecorded state has all turns of the last record.
     pub(super) fn has_all_turns(&self, here: (&State, At)) -> bool {
         let mut links = self.recorded.carried.links.clone();
-        let before = self.recorded.last().map(|record| &record.state);
+        let before = self.last().map(|record| &record.state);
         links.slip(self.assembly, here, before).is_none()
+    }
+
+    pub(super) fn last(&self) -> Option<&Record> {
+        self.recorded.last.as_ref()
     }
 
     pub(super) fn checkpoint(&mut self, position: &RunPosition, wall_s: f64) {

@@ -63,11 +63,6 @@ impl RecordSummary {
         recorded
     }
 
-    /// Returns the last record.
-    pub fn last(&self) -> Option<&Record> {
-        self.last.as_ref()
-    }
-
     /// Returns the number of records.
     pub fn count(&self) -> usize {
         self.carried.count

@@ -24,7 +24,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Observer that records a motion and perturbs it at saddles.
 pub(super) struct Recorder<'a> {
-    taken: RecordStream<'a>,
+    records: RecordStream<'a>,
     pushes: Vec<SaddlePush>,
     end_ns: f64,
     /// End of the path (ns); the motion is not checked for rest before.
@@ -38,7 +38,7 @@ pub(super) struct Recorder<'a> {
     /// They are unknown if the run was resumed since.
     last_good: Option<(Checkpoint, Option<RecordSummary>)>,
     /// A record was made since `last_good`.
-    is_behind: bool,
+    has_new_record: bool,
     is_interrupted: bool,
     assembly: &'a Assembly,
     /// Log of linker events.
@@ -50,7 +50,7 @@ pub(super) struct Recorder<'a> {
     /// Comparison with shorter steps.
     pub(super) step_check: Option<StepCheck<'a>>,
     /// Steps between queries whether to leave the motion.
-    look_every: u64,
+    leave_every: u64,
 }
 
 impl<'a> Recorder<'a> {
@@ -77,14 +77,14 @@ impl<'a> Recorder<'a> {
         };
         let hinges = HingeWatch::new(assembly);
         Self {
-            taken: RecordStream::new(assembly, recorded, sink),
+            records: RecordStream::new(assembly, recorded, sink),
             pushes,
             end_ns: dynamics.duration_ns,
             rest_from_ns: hinges.duration_ns(),
             most_pushes: dynamics.leave_saddles,
             clock,
             judge: RestJudge::new(assembly, dynamics),
-            is_behind: position.is_none(),
+            has_new_record: position.is_none(),
             last_good: position.as_ref().map(|checkpoint| {
                 let good = Checkpoint {
                     here: checkpoint.last_good.clone(),
@@ -98,7 +98,7 @@ impl<'a> Recorder<'a> {
             log: Arc::new(Mutex::new(events)),
             hinges,
             behind_switch,
-            look_every: match assembly.scene.task {
+            leave_every: match assembly.scene.task {
                 // Overdamped steps are long.
                 Task::Brownian(_) => 1,
                 _ => DEFAULT_CHECK_EVERY,
@@ -146,7 +146,7 @@ impl<'a> Recorder<'a> {
         // Later events belong to no record.
         outcome.events = self.events_until(outcome.steps);
         outcome.pushes = self.pushes;
-        (self.taken.into_outcome(outcome), failure)
+        (self.records.into_outcome(outcome), failure)
     }
 
     fn execute(
@@ -202,7 +202,7 @@ impl<'a> Recorder<'a> {
                 return Some(Failure::Diverged { failure, body });
             }
         };
-        if let Some(lost) = self.taken.lost.take() {
+        if let Some(lost) = self.records.lost.take() {
             if let Some((good, _)) = self.last_good.take() {
                 outcome.steps = good.here.step;
                 system.state_mut().set_motion(&good.here.motion);
@@ -228,7 +228,7 @@ impl<'a> Recorder<'a> {
         // earlier record since the run was resumed, the existing checkpoint stays.
         if let Some((good, Some(recorded))) = self.last_good.take() {
             let position = self.position_at(good);
-            let sink = &mut self.taken.sink;
+            let sink = &mut self.records.sink;
             sink.checkpoint(&position, &recorded, self.clock.wall_s());
         }
         let remedy = match self.most_pushes {
@@ -246,7 +246,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn certificate(&mut self, reason: Reason, system: &System) -> Option<Certificate> {
-        let record = self.taken.recorded.last()?;
+        let record = self.records.last()?;
         let judge = self
             .judge
             .as_mut()
@@ -255,17 +255,17 @@ impl<'a> Recorder<'a> {
         Some(nearest.certificate)
     }
 
-    fn look_at_hinges(&mut self) -> ControlFlow<()> {
+    fn check_hinges(&mut self) -> ControlFlow<()> {
         let Some(slip) = self.hinges.slip() else {
             return ControlFlow::Continue(());
         };
-        self.taken.lost = Some(TurnLoss::Hinge(slip));
+        self.records.lost = Some(TurnLoss::Hinge(slip));
         ControlFlow::Break(())
     }
 
     fn keep(&mut self, checkpoint: Checkpoint) {
         let position = self.position_at(checkpoint);
-        self.taken.checkpoint(&position, self.clock.wall_s());
+        self.records.checkpoint(&position, self.clock.wall_s());
     }
 
     fn position_at(&self, checkpoint: Checkpoint) -> RunPosition {
@@ -280,12 +280,12 @@ impl<'a> Recorder<'a> {
 
 impl Observer for Recorder<'_> {
     fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()> {
-        self.look_at_hinges()?;
-        if !self.taken.take(record(moment)) {
+        self.check_hinges()?;
+        if !self.records.take(record(moment)) {
             return ControlFlow::Break(());
         }
-        self.is_behind = true;
-        self.taken.sink.progress(&Progress {
+        self.has_new_record = true;
+        self.records.sink.progress(&Progress {
             at: At::Time(moment.time),
             end: self.end_ns,
             steps: moment.step,
@@ -298,7 +298,7 @@ impl Observer for Recorder<'_> {
         if self.most_pushes == 0 || time < self.rest_from_ns {
             return false;
         }
-        let (Some(judge), Some(record)) = (&mut self.judge, self.taken.recorded.last()) else {
+        let (Some(judge), Some(record)) = (&mut self.judge, self.records.last()) else {
             return false;
         };
         let nearest = judge.equilibrium(record, system, at_rest);
@@ -319,24 +319,24 @@ impl Observer for Recorder<'_> {
     }
 
     fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
-        self.look_at_hinges()?;
+        self.check_hinges()?;
         if let Some(check) = &mut self.step_check {
             check.compare(
                 pause.state(),
                 pause.step,
-                &mut self.taken.recorded.carried.steps,
+                &mut self.records.recorded.carried.steps,
             );
         }
-        if self.is_behind {
+        if self.has_new_record {
             // Only saddles are left without their record; a heat bath has none.
-            let recorded = self.judge.as_ref().map(|_| self.taken.recorded.clone());
+            let recorded = self.judge.as_ref().map(|_| self.records.recorded.clone());
             self.last_good = Some((pause.checkpoint(), recorded));
-            self.is_behind = false;
+            self.has_new_record = false;
         }
-        let is_look = pause.step.is_multiple_of(self.look_every);
-        self.is_interrupted = is_look && self.taken.sink.is_left(pause.step, pause.state())
-            || self.taken.sink.is_interrupted();
-        if self.is_interrupted || self.taken.sink.is_checkpoint_due() {
+        let may_leave = pause.step.is_multiple_of(self.leave_every);
+        self.is_interrupted = may_leave && self.records.sink.is_left(pause.step, pause.state())
+            || self.records.sink.is_interrupted();
+        if self.is_interrupted || self.records.sink.is_checkpoint_due() {
             self.keep(pause.checkpoint());
         }
         if self.is_interrupted {

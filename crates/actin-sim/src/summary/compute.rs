@@ -1,14 +1,13 @@
 //! The numbers of a summary, from the last record of a run.
 
 use super::{
-    AccuracySummary, EndReactions, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
-    ShapeSummary, StabilitySummary, StatesSummary, Summary, ThermalSummary, WorkSummary,
+    AccuracySummary, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
+    StabilitySummary, StatesSummary, Summary, ThermalSummary, WorkSummary,
 };
-use crate::loads::loads_of;
 use crate::observe::{Averages, Memory, View, observed_values};
-use crate::{Assembly, At, End, Outcome, Record, Row, Status, Task};
+use crate::{Assembly, At, Outcome, Record, Row, Status, Task};
 use actin_equilibrium::Certificate;
-use actin_mechanics::{Loads, Residual};
+use actin_mechanics::Residual;
 
 impl Summary {
     /// Creates the summary of an assembly as built, with the keys of a run's summary but without
@@ -101,42 +100,6 @@ impl WorkSummary {
     }
 }
 
-impl FilamentSummary {
-    pub(super) fn all(assembly: &Assembly, last: &Record) -> Vec<Self> {
-        // Computed for the state of the record, which may differ from the current state of the
-        // system.
-        let loads = loads_of(assembly.system.interactions(), &last.state);
-        let here = (last, assembly.path_parameter(last.at));
-        let filaments = 0..assembly.filaments.len();
-        filaments
-            .map(|filament| Self::new(assembly, filament, here, &loads))
-            .collect()
-    }
-
-    /// Creates the summary of a filament from the loads of the last record, at `parameter` of the
-    /// path.
-    fn new(
-        assembly: &Assembly,
-        filament: usize,
-        (last, parameter): (&Record, f64),
-        loads: &Loads,
-    ) -> Self {
-        let tip = reported_tip(assembly, filament);
-        let tip_nm = assembly.tip_of(filament, &last.state, tip);
-        let tip_at_rest_nm = assembly.tip_of(filament, &assembly.rest, tip);
-        let terms = assembly.filaments[filament].terms.clone();
-        Self {
-            counts: assembly.counts_of(filament),
-            tip_nm: tip_nm.into(),
-            tip_displacement_nm: (tip_nm - tip_at_rest_nm).into(),
-            end_reactions: EndReactions::new(assembly, filament, &last.state, loads),
-            elastic_pn_nm: last.energies_pn_nm[terms].iter().sum(),
-            shape: ShapeSummary::new(assembly, filament, (&last.state, parameter)),
-            seed: assembly.monomers_of(filament).seed,
-        }
-    }
-}
-
 impl StabilitySummary {
     fn new(certificate: &Certificate) -> Self {
         Self {
@@ -166,19 +129,10 @@ impl From<Residual> for ResidualSummary {
     }
 }
 
-/// End whose tip is reported: the last one, unless it is clamped and the first one is free.
-fn reported_tip(assembly: &Assembly, filament: usize) -> End {
-    let is_clamped = |end| assembly.clamp_at(filament, end).is_some();
-    if is_clamped(End::End) && !is_clamped(End::Start) {
-        End::Start
-    } else {
-        End::End
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::End;
     use crate::summary::fixture;
     use actin_mechanics::Vector3;
     use actin_mechanics::testing::resultant;

@@ -3,21 +3,18 @@
 
 mod compute;
 mod energy;
+mod filament;
 mod following;
 mod linkers;
-mod pushes;
-mod reactions;
-mod shape;
 mod states;
 mod statistics;
 mod thermal;
 mod warnings;
 
 pub use energy::EnergySummary;
+pub use filament::{EndReaction, EndReactions, FilamentSummary, ShapeSummary};
 pub use following::FollowingSummary;
 pub use linkers::LinkerSummary;
-pub use reactions::{EndReaction, EndReactions};
-pub use shape::ShapeSummary;
 pub use states::{StateSummary, StatesSummary};
 pub use thermal::ThermalSummary;
 
@@ -151,26 +148,6 @@ fn first_format() -> u32 {
     1
 }
 
-/// Final results of one filament.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FilamentSummary {
-    /// Numbers of bodies and elements.
-    #[serde(with = "CountKeys")]
-    pub counts: Counts,
-    /// Position of the tip (nm, lab frame).
-    pub tip_nm: [f64; 3],
-    /// Displacement of the tip from the initial state (nm, lab frame).
-    pub tip_displacement_nm: [f64; 3],
-    /// Reactions at the clamped ends.
-    pub end_reactions: EndReactions,
-    /// Elastic energy of sections and junctions, without linkers (pN nm).
-    pub elastic_pn_nm: f64,
-    /// Shape.
-    pub shape: ShapeSummary,
-    /// Seed of the bond anchors.
-    pub seed: u64,
-}
-
 /// Stability of an equilibrium from the eigenvalues of its stiffness.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StabilitySummary {
@@ -251,7 +228,7 @@ impl Summary {
         all.extend(self.energy_pn_nm.numbers());
         let observed = self.observables.iter();
         all.extend(observed.flat_map(|(name, one)| one.numbers(name)));
-        all.extend(self.pushes.iter().enumerate().flat_map(pushes::numbers));
+        all.extend(self.pushes.iter().enumerate().flat_map(push_numbers));
         let tip = [self.tip_nm, self.tip_displacement_nm];
         all.extend(end_numbers(tip, &self.end_reactions));
         all.extend(below("shape", self.shape.numbers()));
@@ -283,16 +260,15 @@ impl Summary {
     }
 }
 
-impl FilamentSummary {
-    fn numbers(&self) -> Vec<(String, f64)> {
-        let mut all = vec![("elastic_pn_nm".to_owned(), self.elastic_pn_nm)];
-        all.extend(end_numbers(
-            [self.tip_nm, self.tip_displacement_nm],
-            &self.end_reactions,
-        ));
-        all.extend(below("shape", self.shape.numbers()));
-        all
-    }
+fn push_numbers((i, push): (usize, &SaddlePush)) -> [(String, f64); 5] {
+    [
+        ("time_ns", push.time_ns),
+        ("energy_pn_nm", push.energy_pn_nm),
+        ("lowest_eigenvalue", push.lowest_eigenvalue),
+        ("displacement_nm", push.displacement_nm),
+        ("turn_rad", push.turn_rad),
+    ]
+    .map(|(key, value)| (format!("pushes[{i}].{key}"), value))
 }
 
 /// Numbers of the tip (position, displacement) and of the reactions of a filament.

@@ -19,6 +19,22 @@ const FEWEST_RECORDS: usize = 10;
 /// Evaluation time of a rod segment under `Homogenised`, in evaluations of a bond.
 const BONDS_PER_SEGMENT: f64 = 15.0;
 
+/// Builds a scene; chooses automatic sections first.
+///
+/// # Errors
+/// As [`Assembly::build`]; if no sections can be chosen.
+pub fn build(scene: &Scene) -> Result<Assembly, SceneProblem> {
+    let mut filaments = scene.filaments();
+    if filaments.all(|filament| filament.sections.adaptive().is_none()) {
+        return Assembly::build(scene);
+    }
+    let (scene, chosen) = choose(scene)?;
+    let mut built = Assembly::build(&scene)?;
+    built.build_s += chosen.wall_s;
+    built.chosen = Some(chosen);
+    Ok(built)
+}
+
 /// Returns the scene with explicit sections in place of `Adaptive`.
 ///
 /// The choice meets the wanted errors with the least work. Work is counted in evaluations, so the choice is reproducible.
@@ -26,7 +42,7 @@ const BONDS_PER_SEGMENT: f64 = 15.0;
 ///
 /// # Errors
 /// Scenes without a reference, wanted quantities without a counterpart in the scene, a reference without a result.
-pub(crate) fn choose(scene: &Scene) -> Result<(Scene, SectionChoice), SceneProblem> {
+fn choose(scene: &Scene) -> Result<(Scene, SectionChoice), SceneProblem> {
     let began = Instant::now();
     let choice = Choice::new(scene)?;
     let (full, assembly) = choice.full_resolution()?;
