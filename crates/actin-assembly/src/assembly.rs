@@ -226,13 +226,13 @@ impl Assembly {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub(crate) fn tip_points_of(&self, filament: usize, end: End) -> &[usize] {
+    pub(crate) fn tip_points_of(&self, filament: usize, end: End) -> Range<usize> {
         let sections = self.sections_of(filament);
         let section = match end {
             End::Start => sections.first(),
             End::End => sections.last(),
         };
-        section.map_or(&[], |section| section.tip_points(end))
+        section.map_or(0..0, |section| section.tip_points(end))
     }
 
     /// Position of the tip of filament 0 at `end` in `state` (nm, lab frame).
@@ -246,8 +246,9 @@ impl Assembly {
     /// If the index is out of range.
     pub fn tip_of(&self, filament: usize, state: &State, end: End) -> Vector3 {
         let points = self.tip_points_of(filament, end);
-        let sum: Vector3 = points.iter().map(|&i| state.points.position.get(i)).sum();
-        sum / points.len() as f64
+        let count = points.len() as f64;
+        let sum: Vector3 = points.map(|i| state.points.position.get(i)).sum();
+        sum / count
     }
 
     /// Point `i` projected to the centre line (nm, lab frame). Nodes are unchanged; a monomer's

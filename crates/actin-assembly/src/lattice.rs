@@ -6,6 +6,7 @@
 //! resolution moves no monomer.
 
 use crate::scene::{Filament, MAX_EXACT_INTEGER, SceneProblem, Section};
+use crate::whole::to_index;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ResolvedSection {
@@ -42,12 +43,9 @@ impl Lattice {
         self.origin_nm + j as f64 * self.rise_nm
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "`check_reach` refuses places that i64 could not count"
-    )]
+    /// Index of the monomer nearest to an arc length, which `check_reach` limits.
     fn nearest(&self, s_nm: f64) -> i64 {
-        ((s_nm - self.origin_nm) / self.rise_nm).round() as i64
+        to_index(((s_nm - self.origin_nm) / self.rise_nm).round())
     }
 
     /// Index of the monomer whose upper boundary (place plus half a rise) is nearest to `s_nm`.

@@ -42,6 +42,7 @@ mod several_states;
 mod start;
 mod turned_ends;
 mod unstable_twist;
+pub mod whole;
 
 use actin_scene as scene;
 use kinetics::SiteTable;

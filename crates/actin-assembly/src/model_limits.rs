@@ -198,13 +198,14 @@ impl Assembly {
         largest(changes.map(|(energy, [from, to])| {
             let is_lateral = to - from < 1.5 * monomers.rise_nm;
             let (rigidity, greatest) = if is_lateral {
-                let m = monomers;
-                (m.lateral_rigidity_pn_per_nm, m.lateral_max_bond_nm)
-            } else {
-                let m = monomers;
                 (
-                    m.longitudinal_rigidity_pn_per_nm,
-                    m.longitudinal_max_bond_nm,
+                    monomers.lateral_rigidity_pn_per_nm,
+                    monomers.lateral_max_bond_nm,
+                )
+            } else {
+                (
+                    monomers.longitudinal_rigidity_pn_per_nm,
+                    monomers.longitudinal_max_bond_nm,
                 )
             };
             let change = (2.0 * energy / rigidity).sqrt() / greatest;

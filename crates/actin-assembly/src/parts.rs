@@ -165,8 +165,8 @@ pub struct SectionSpan {
     pub points: Range<usize>,
     /// Range of the frames of its monomers or segments.
     pub frames: Range<usize>,
-    pub(super) first_tip: Vec<usize>,
-    pub(super) last_tip: Vec<usize>,
+    /// Points whose mean is the tip at the start and at the end.
+    pub(super) tips: [Range<usize>; 2],
 }
 
 /// Resolution of a section.
@@ -209,11 +209,8 @@ impl SectionSpan {
         matches!(self.resolution, Resolution::Ellipsoids { .. })
     }
 
-    pub(super) fn tip_points(&self, end: End) -> &[usize] {
-        match end {
-            End::Start => &self.first_tip,
-            End::End => &self.last_tip,
-        }
+    pub(super) fn tip_points(&self, end: End) -> Range<usize> {
+        self.tips[end as usize].clone()
     }
 }
 

@@ -10,6 +10,7 @@
 use super::strand::{Body, Strand};
 use crate::InterfaceSampling;
 use crate::scene::{Interfaces, SceneProblem, Task};
+use crate::whole::to_steps;
 use crate::{models, problem_at};
 use actin_ellipsoid::{Anchors, Fluctuations, Link, Monomers, Placement, QuasiHarmonic};
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
@@ -302,13 +303,8 @@ impl IsolatedStrand {
     }
 }
 
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the conversion saturates, and both are positive"
-)]
 fn times(whole: f64, part: f64) -> u64 {
-    (whole / part).ceil() as u64
+    to_steps((whole / part).ceil())
 }
 
 #[cfg(test)]

@@ -6,8 +6,9 @@ mod pool;
 #[cfg(test)]
 mod tests;
 
+use crate::run::InterruptibleTrajectory;
 use crate::scene::RandomPart;
-use crate::{Outcome, Plan, Record, RunError, Scene, Sink, Status, Trajectory};
+use crate::{Outcome, Plan, Record, RunError, Scene, Status, Trajectory};
 use std::num::NonZeroUsize;
 use thiserror::Error;
 
@@ -155,10 +156,7 @@ impl<'a> Ensemble<'a> {
             let seed = self.seeds[index];
             let assembly = crate::build(&self.reseeded(seed).0)?;
             let plan = Plan::new(&assembly)?;
-            let mut sink = StoppableSink {
-                trajectory: Trajectory::default(),
-                is_stopped,
-            };
+            let mut sink = InterruptibleTrajectory::new(|_: &[Record]| is_stopped());
             let outcome = plan.run_into(&mut sink)?;
             if outcome.status == Status::Interrupted {
                 return Ok(None);
@@ -186,21 +184,5 @@ impl<'a> Ensemble<'a> {
         let drawn = self.drawn.iter();
         let count = drawn.map(|&what| scene.reseed(what, seed)).sum();
         (scene, count)
-    }
-}
-
-/// Records of a replica, whose run stops after the failure of an earlier one.
-struct StoppableSink<'a> {
-    trajectory: Trajectory,
-    is_stopped: &'a dyn Fn() -> bool,
-}
-
-impl Sink for StoppableSink<'_> {
-    fn record(&mut self, record: &Record) {
-        self.trajectory.record(record);
-    }
-
-    fn is_interrupted(&mut self) -> bool {
-        (self.is_stopped)()
     }
 }

@@ -9,6 +9,7 @@ use crate::{
     RunError, RunPosition, SavedRun, Sink, Status, Trajectory,
 };
 use actin_assembly::Cells;
+use actin_assembly::whole::to_steps;
 use actin_integrate::{Checkpoint, Moment, Snapshot};
 use actin_mechanics::{Split, State};
 use serde::{Deserialize, Serialize};
@@ -285,7 +286,7 @@ impl Follower {
         let motion = self.scene.task.motion();
         let length_ns = motion.and_then(|motion| motion.time_step_ns);
         let length_ns = length_ns.unwrap_or(self.least_ns);
-        let rest = whole_steps(self.least_ns / length_ns);
+        let rest = to_steps((self.least_ns / length_ns).ceil());
         let before = &left.beginning;
         let cells = before.free_from.iter().zip(&before.is_monomers);
         cells
@@ -376,15 +377,6 @@ fn resolved(scene: &Scene, cells: &Cells) -> Result<Scene, SceneProblem> {
     let (_, mut resolved) = finest.expect("two were compared");
     resolved.filament.sections = scene.filament.sections.clone();
     Ok(resolved)
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a positive time over a step, at most the number of steps of a run"
-)]
-fn whole_steps(steps: f64) -> u64 {
-    steps.ceil() as u64
 }
 
 fn begun(

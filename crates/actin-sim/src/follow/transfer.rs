@@ -4,6 +4,7 @@ use super::field::{CrossSection, Field};
 use super::momentum::{Bodies, Momentum};
 use crate::scene::{SceneProblem, Task};
 use crate::{Assembly, At, BodyKind};
+use actin_assembly::whole::to_index;
 use actin_mechanics::{State, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -237,14 +238,10 @@ impl BodyPositions {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "arc lengths of filaments that fit into memory are below 2^53 units"
-)]
 fn places(bodies: impl Iterator<Item = (BodyKind, f64)>) -> BTreeMap<Key, usize> {
     let mut places = BTreeMap::new();
     for (i, (kind, s_nm)) in bodies.enumerate() {
-        let unit = (s_nm / SAME_PLACE_NM).round() as i64;
+        let unit = to_index((s_nm / SAME_PLACE_NM).round());
         let others = places
             .range((kind as u8, unit, 0)..=(kind as u8, unit, usize::MAX))
             .count();

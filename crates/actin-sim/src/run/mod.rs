@@ -36,6 +36,7 @@ pub use records::{
     EnergyTotals, Record, RecordIter, Records, RecordsError, Row, StoredRecord, Trajectory,
 };
 pub use rest::SaddlePush;
+pub(crate) use sink::InterruptibleTrajectory;
 pub use sink::{
     MotionPosition, PathPosition, Progress, ResolutionSwitch, RunPosition, SavedRun, Sink,
     SolveReport,

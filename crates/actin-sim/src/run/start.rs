@@ -16,6 +16,7 @@ use crate::scene::{Anchors, End, Filament, FreeTranslation, Task};
 use crate::shape::Resultants;
 use crate::shape::axis::CrossSection;
 use crate::{Assembly, FilamentSpan};
+use actin_assembly::whole::to_count;
 use actin_assembly::{Part, ellipsoids};
 use actin_ellipsoid::{Cell, CellResponse, Control, Displacements, Hold, SixVector};
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
@@ -141,14 +142,9 @@ impl<'a> Cantilever<'a> {
     }
 
     /// Index of a point's monomer within its cell.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_possible_wrap,
-        reason = "a count of monomers, and the remainder is not negative"
-    )]
     fn monomer(&self, point: usize) -> usize {
         let rises = self.assembly.points[point].s_nm / self.rise_nm;
-        (rises.round() as i64).rem_euclid(PERIOD as i64) as usize
+        to_count(rises.round().rem_euclid(PERIOD as f64))
     }
 
     /// Torque and force at an arc length (nm) of the straight filament in `axes`, exerted by the

@@ -4,6 +4,7 @@ use super::{Estimate, composition};
 use crate::codes;
 use crate::scene::{Dynamics, Scene, SceneProblem, Task};
 use actin_assembly::Note;
+use actin_assembly::whole::to_steps;
 use actin_integrate::Drag;
 
 const DEFAULT_RECORDS: f64 = 100.0;
@@ -53,8 +54,8 @@ impl Estimate {
             largest_frequency_rad_per_ns: 0.0,
             stability_limit_ns: f64::INFINITY,
             time_step_ns: duration / count,
-            steps: whole(count),
-            steps_between_records: whole(between),
+            steps: to_steps(count),
+            steps_between_records: to_steps(between),
             record_every_ns,
             force_evaluations: 0,
             longest_sound_step: None,
@@ -77,15 +78,6 @@ fn uncountable(dynamics: &Dynamics, largest_ns: f64) -> SceneProblem {
             ),
         ),
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a whole number that is not negative; the conversion saturates"
-)]
-fn whole(number: f64) -> u64 {
-    number as u64
 }
 
 /// Smallest number of steps of at most `largest` in `time`.

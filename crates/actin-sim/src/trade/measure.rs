@@ -59,37 +59,38 @@ impl From<Quantity> for Measure {
     }
 }
 
+/// Quantities by their names on the command line.
+const NAMES: [(&str, Measure); 7] = [
+    ("tip", Measure::Tip),
+    ("height", Measure::Height),
+    ("end-force", Measure::EndForce),
+    ("end-couple", Measure::EndCouple),
+    ("energy", Measure::Energy),
+    ("curvature", Measure::Curvature(None)),
+    ("linker-force", Measure::LinkerForce(None)),
+];
+
 /// Parses a name of the command line. Any other name is the prefix of an observable.
 impl FromStr for Measure {
     type Err = std::convert::Infallible;
 
     fn from_str(name: &str) -> Result<Self, Self::Err> {
-        Ok(match name {
-            "tip" => Self::Tip,
-            "height" => Self::Height,
-            "end-force" => Self::EndForce,
-            "end-couple" => Self::EndCouple,
-            "energy" => Self::Energy,
-            "curvature" => Self::Curvature(None),
-            "linker-force" => Self::LinkerForce(None),
-            other => Self::Observable(other.to_owned()),
-        })
+        let known = NAMES.into_iter().find(|(known, _)| *known == name);
+        let observable = || Self::Observable(name.to_owned());
+        Ok(known.map_or_else(observable, |(_, measure)| measure))
     }
 }
 
 impl fmt::Display for Measure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Tip => write!(f, "tip"),
-            Self::Height => write!(f, "height"),
-            Self::EndForce => write!(f, "end-force"),
-            Self::EndCouple => write!(f, "end-couple"),
-            Self::Energy => write!(f, "energy"),
-            Self::Curvature(None) => write!(f, "curvature"),
             Self::Curvature(Some(at_nm)) => write!(f, "curvature at {at_nm} nm"),
-            Self::LinkerForce(None) => write!(f, "linker-force"),
             Self::LinkerForce(Some(linker)) => write!(f, "linker-force {linker}"),
-            Self::Observable(name) => write!(f, "{name}"),
+            Self::Observable(name) => f.write_str(name),
+            known => {
+                let name = NAMES.iter().find(|(_, measure)| measure == known);
+                f.write_str(name.map_or("", |(name, _)| name))
+            }
         }
     }
 }

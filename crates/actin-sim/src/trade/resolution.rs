@@ -5,6 +5,7 @@ use crate::scene::{
     Section, Task,
 };
 use crate::{Assembly, Estimate, Plan};
+use actin_assembly::whole::to_count;
 use actin_cosserat::Homogenised;
 
 /// Shortest rod (nm): a period of monomers. Monomers replace rods below this length.
@@ -255,14 +256,9 @@ fn sections(length_nm: f64, windows: &[[f64; 2]], segment_nm: f64) -> Vec<Sectio
 
 /// Returns the number of segments with a length closest to `segment_nm`, at least 1, with segments that are permitted in a
 /// heat bath.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a filament has fewer segments than 2^53"
-)]
 fn segments(length_nm: f64, segment_nm: f64) -> usize {
     let most = (length_nm / Homogenised::SHORTEST_HEATED_NM).floor();
-    (length_nm / segment_nm).round().min(most).max(1.0) as usize
+    to_count((length_nm / segment_nm).round().min(most).max(1.0))
 }
 
 /// Returns windows about `places`. Windows merge if the rod between them would be too short, and extend to an end of the

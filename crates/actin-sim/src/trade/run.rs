@@ -1,8 +1,9 @@
 //! One run of a candidate: its records and its time, including the assembly.
 
 use super::model_error;
+use crate::run::InterruptibleTrajectory;
 use crate::scene::{Scene, SceneProblem, Task};
-use crate::{Assembly, Plan, Record, RunError, Sink, StableStates};
+use crate::{Assembly, Plan, Record, RunError, StableStates};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
@@ -88,16 +89,14 @@ pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, T
     let began = Instant::now();
     let assembly = Assembly::build(scene)?;
     let plan = Plan::new(&assembly)?;
-    let mut recorder = Recorder {
-        limits,
-        began,
-        records: Vec::new(),
-        is_cut: false,
-    };
-    let outcome = plan.execute(None, &mut recorder, model_error);
-    let Recorder {
-        records, is_cut, ..
-    } = recorder;
+    let mut is_cut = false;
+    let mut sink = InterruptibleTrajectory::new(|records: &[Record]| {
+        is_cut |= limits.budget.is_some_and(|budget| began.elapsed() > budget);
+        let has_enough = limits.records.is_some_and(|most| records.len() >= most);
+        is_cut || has_enough || (limits.is_interrupted)()
+    });
+    let outcome = plan.execute(None, &mut sink, model_error);
+    let records = sink.trajectory.records;
     let wall_s = began.elapsed().as_secs_f64();
     if (limits.is_interrupted)() {
         return Err(TrialFailure::Interrupted);
@@ -136,28 +135,4 @@ fn compared(scene: &Scene, mut records: Vec<Record>) -> Vec<Record> {
     };
     records.retain(is_stage_end);
     records
-}
-
-/// Keeps the records of a run until a limit.
-struct Recorder<'a> {
-    limits: Limits<'a>,
-    began: Instant,
-    records: Vec<Record>,
-    is_cut: bool,
-}
-
-impl Sink for Recorder<'_> {
-    fn record(&mut self, record: &Record) {
-        self.records.push(record.clone());
-    }
-
-    fn is_interrupted(&mut self) -> bool {
-        let budget = self.limits.budget;
-        self.is_cut |= budget.is_some_and(|budget| self.began.elapsed() > budget);
-        let has_enough = self
-            .limits
-            .records
-            .is_some_and(|most| self.records.len() >= most);
-        self.is_cut || has_enough || (self.limits.is_interrupted)()
-    }
 }

@@ -8,6 +8,7 @@ use super::worst;
 use crate::scene::{Adaptive, Scene, SceneProblem, Task};
 use crate::{Assembly, Estimate};
 use actin_assembly::SectionChoice;
+use actin_assembly::whole::to_count;
 use std::time::Instant;
 
 /// Limit of the bond evaluations of a reference motion, a few seconds of time. The comparison of a longer motion covers
@@ -215,16 +216,11 @@ impl<'a> Choice<'a> {
 }
 
 /// Returns the number of records of a motion that are compared.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a share of a number of records"
-)]
 fn compared_records(motion: &Estimate, bonds: usize) -> usize {
     let all = usize::try_from(motion.records()).unwrap_or(usize::MAX);
     let work = motion.force_evaluations as f64 * bonds as f64;
     let share = MOST_WORK / work.max(MOST_WORK);
-    let first = (share * all as f64).ceil() as usize;
+    let first = to_count((share * all as f64).ceil());
     first.max(FEWEST_RECORDS).min(all)
 }
 
