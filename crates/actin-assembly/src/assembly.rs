@@ -70,8 +70,8 @@ pub struct Assembly {
 impl Assembly {
     /// Returns the number of bodies and elements of each kind in all filaments.
     pub fn counts(&self) -> Counts {
-        let (points, frames) = (0..self.points.len(), 0..self.frames.len());
-        self.counts_in(0..self.filaments.len(), points, frames)
+        let filaments = 0..self.filaments.len();
+        filaments.map(|filament| self.counts_of(filament)).sum()
     }
 
     /// Returns the number of bodies and elements of each kind in one filament.
@@ -80,42 +80,24 @@ impl Assembly {
     /// If the index is out of range.
     pub fn counts_of(&self, filament: usize) -> Counts {
         let span = &self.filaments[filament];
-        let (points, frames) = (span.points.clone(), span.frames.clone());
-        self.counts_in(filament..filament + 1, points, frames)
-    }
-
-    fn counts_in(
-        &self,
-        filaments: Range<usize>,
-        points: Range<usize>,
-        frames: Range<usize>,
-    ) -> Counts {
         let state = self.system.state();
-        let free_points = points.clone().filter(|&i| state.points.is_free(i));
-        let free_frames = frames.clone().filter(|&i| state.frames.is_free(i));
-        let held = filaments
-            .clone()
-            .flat_map(|f| [(f, End::Start), (f, End::End)]);
-        let slides = held.filter_map(|(filament, end)| {
-            let clamp = self.clamp_at(filament, end)?;
-            Some(clamp.slides.directions(clamp.axis).len())
-        });
-        let kinds = |kind| {
-            let points = self.points[points.clone()].iter().map(|p| p.kind);
-            points.filter(|k| *k == kind).count()
-        };
-        let segments = self.frames[frames.clone()].iter();
-        let sections = self.filaments[filaments].iter().map(|f| f.sections.clone());
+        let free_points = span.points.clone().filter(|&i| state.points.is_free(i));
+        let free_frames = span.frames.clone().filter(|&i| state.frames.is_free(i));
+        let ends = [End::Start, End::End].into_iter();
+        let clamps = ends.filter_map(|end| self.clamp_at(filament, end));
+        let slides = clamps.map(|clamp| clamp.slides.directions(clamp.axis).len());
+        let points = self.points[span.points.clone()].iter();
+        let frames = self.frames[span.frames.clone()].iter();
+        let sections = span.sections.start..span.sections.end - 1;
         Counts {
-            monomers: kinds(BodyKind::Monomer),
-            segments: segments.filter(|f| f.kind == BodyKind::Segment).count(),
-            bonds: sections
-                .clone()
-                .flat_map(|sections| &self.sections[sections])
+            monomers: points.filter(|p| p.kind == BodyKind::Monomer).count(),
+            bonds: self
+                .sections_of(filament)
+                .iter()
                 .map(SectionSpan::bonds)
                 .sum(),
+            segments: frames.filter(|f| f.kind == BodyKind::Segment).count(),
             junctions: sections
-                .flat_map(|sections| sections.start..sections.end - 1)
                 .filter(|&section| self.is_junction(section))
                 .count(),
             dofs: 3 * (free_points.count() + free_frames.count()) + slides.sum::<usize>(),

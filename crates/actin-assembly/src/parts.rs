@@ -3,6 +3,7 @@
 use super::built_axis::BuiltAxis;
 use crate::scene::{End, WallName};
 use actin_mechanics::{UnitQuaternion, Vector3};
+use std::iter::Sum;
 use std::ops::Range;
 
 /// Reach of a bond or segment in rises or segments, with a margin.
@@ -227,4 +228,16 @@ pub struct Counts {
     pub junctions: usize,
     /// Degrees of freedom of the free bodies.
     pub dofs: usize,
+}
+
+impl Sum for Counts {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), |sum, one| Self {
+            monomers: sum.monomers + one.monomers,
+            bonds: sum.bonds + one.bonds,
+            segments: sum.segments + one.segments,
+            junctions: sum.junctions + one.junctions,
+            dofs: sum.dofs + one.dofs,
+        })
+    }
 }

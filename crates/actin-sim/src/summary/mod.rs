@@ -222,7 +222,22 @@ impl Summary {
 
     /// Numbers by key, for checks that they are finite: `tip_nm[0]`, `filaments[0].elastic_pn_nm`.
     pub fn numbers(&self) -> Vec<(String, f64)> {
-        let scalars = self.scalars().into_iter();
+        let temperature = self.thermal.and_then(|one| one.kinetic_temperature_k);
+        let eigenvalue = self.lowest_stiffness_eigenvalue;
+        let frequency = self.largest_frequency_rad_per_ns;
+        let scalars = [
+            ("wall_s", Some(self.wall_s)),
+            ("residual.force_pn", Some(self.residual.force_pn)),
+            ("residual.torque_pn_nm", Some(self.residual.torque_pn_nm)),
+            ("time_ns", self.time_ns),
+            ("path", self.path),
+            ("time_step_ns", self.time_step_ns),
+            ("smallest_gap_nm", self.smallest_gap_nm),
+            ("largest_frequency_rad_per_ns", frequency),
+            ("lowest_stiffness_eigenvalue", eigenvalue),
+            ("thermal.kinetic_temperature_k", temperature),
+        ];
+        let scalars = scalars.into_iter();
         let known = scalars.filter_map(|(key, value)| Some((key.to_owned(), value?)));
         let mut all: Vec<_> = known.collect();
         all.extend(self.energy_pn_nm.numbers());
@@ -239,24 +254,6 @@ impl Summary {
             all.extend(below(&format!("linkers[{i}]"), linker.numbers()));
         }
         all
-    }
-
-    fn scalars(&self) -> [(&'static str, Option<f64>); 10] {
-        let temperature = self.thermal.and_then(|one| one.kinetic_temperature_k);
-        let eigenvalue = self.lowest_stiffness_eigenvalue;
-        let frequency = self.largest_frequency_rad_per_ns;
-        [
-            ("wall_s", Some(self.wall_s)),
-            ("residual.force_pn", Some(self.residual.force_pn)),
-            ("residual.torque_pn_nm", Some(self.residual.torque_pn_nm)),
-            ("time_ns", self.time_ns),
-            ("path", self.path),
-            ("time_step_ns", self.time_step_ns),
-            ("smallest_gap_nm", self.smallest_gap_nm),
-            ("largest_frequency_rad_per_ns", frequency),
-            ("lowest_stiffness_eigenvalue", eigenvalue),
-            ("thermal.kinetic_temperature_k", temperature),
-        ]
     }
 }
 
