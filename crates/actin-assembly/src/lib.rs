@@ -16,6 +16,7 @@ mod bonded;
 mod build;
 mod built_axis;
 mod cells;
+mod contacts;
 mod describe;
 mod drive;
 mod energy_balance;

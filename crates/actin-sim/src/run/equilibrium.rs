@@ -13,10 +13,10 @@ use crate::At;
 use crate::scene::{Equilibrium as Settings, Load, Resultant, SceneProblem};
 use actin_assembly::problem_at;
 use actin_equilibrium::{
-    Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
-    PathError, PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
+    Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path, PathError,
+    PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
 };
-use actin_mechanics::State;
+use actin_mechanics::{State, System};
 use std::ops::ControlFlow;
 
 /// Largest resolved ratio of residual to load.
@@ -38,50 +38,61 @@ pub(super) fn run(
         None => follower.search_states(&mut newton, &state)?,
         Some(_) => None,
     };
-    // An interruption after the last equilibrium has no effect.
-    let is_interrupted = follower.is_interrupted && failure.is_none();
-    let Follower {
-        position,
-        records,
-        clock,
-        ..
-    } = follower;
-    let interactions = assembly.system.interactions();
-    let certificate = position.last.as_ref().and_then(|last| last.certificate);
-    let lowest_eigenvalue = certificate
-        .filter(|_| settings.lowest_eigenvalue && !is_interrupted)
-        .and_then(|certificate| {
-            let lowest = newton.lowest_eigenvalue(&state, interactions, &certificate);
-            lowest.ok().flatten()
-        });
-    let is_done = failure.is_none() && !is_interrupted;
-    let error = settings.error_of.filter(|_| is_done).map(|quantity| {
+    let status = match failure {
+        Some(_) => Status::Failed,
+        // An interruption after the last equilibrium has no effect.
+        None if follower.is_interrupted => Status::Interrupted,
+        None => Status::Converged,
+    };
+    let position = follower.position;
+    let wanted = settings.lowest_eigenvalue && status != Status::Interrupted;
+    let last = position.last.as_ref().filter(|_| wanted);
+    let lowest_eigenvalue = lowest_eigenvalue(&mut newton, &assembly.system, &state, last);
+    let wanted = settings.error_of.filter(|_| status == Status::Converged);
+    let error = wanted.map(|quantity| {
         let last = Record::of_equilibrium(&assembly.system, 0.0, &state);
         model_error(assembly, &last, quantity)
     });
-    let status = match (&failure, is_interrupted) {
-        (Some(_), _) => Status::Failed,
-        (None, true) => Status::Interrupted,
-        (None, false) => Status::Converged,
-    };
-    let report = |(certificate, last): (Certificate, SolveReport)| EquilibriumReport {
-        certificate,
-        lowest_eigenvalue,
-        newton_iterations: of_path.iterations,
-        points: position.points,
-        floor: last.floor,
-        history: last.history,
-        states,
-        error,
-    };
     let outcome = Outcome {
         force_evaluations: newton.work().evaluations,
         saddles_left: position.saddles_left,
         jumps: position.jumps,
-        equilibrium: certificate.zip(position.last).map(report),
-        ..Outcome::new(status, clock.wall_s())
+        equilibrium: report(position, of_path).map(|report| EquilibriumReport {
+            lowest_eigenvalue,
+            states,
+            error,
+            ..report
+        }),
+        ..Outcome::new(status, follower.clock.wall_s())
     };
-    Ok((records.into_outcome(outcome), failure))
+    let statistics = follower.records.recorded.carried;
+    Ok((outcome.with_statistics(assembly, statistics), failure))
+}
+
+fn lowest_eigenvalue(
+    newton: &mut Newton,
+    system: &System,
+    state: &State,
+    last: Option<&SolveReport>,
+) -> Option<f64> {
+    let certificate = last?.certificate?;
+    let lowest = newton.lowest_eigenvalue(state, system.interactions(), &certificate);
+    lowest.ok().flatten()
+}
+
+/// Report of the last equilibrium, without the quantities that a scene can request.
+fn report(position: PathPosition, of_path: SolverWork) -> Option<EquilibriumReport> {
+    let last = position.last?;
+    Some(EquilibriumReport {
+        certificate: last.certificate?,
+        lowest_eigenvalue: None,
+        newton_iterations: of_path.iterations,
+        points: position.points,
+        floor: last.floor,
+        history: last.history,
+        states: None,
+        error: None,
+    })
 }
 
 fn place(assembly: &Assembly, stages_done: usize) -> String {

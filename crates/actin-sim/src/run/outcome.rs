@@ -2,7 +2,7 @@
 
 use super::slip::TurnLoss;
 use super::states::StableStates;
-use super::{HingeSlip, SaddlePush, Slip, StepError};
+use super::{HingeSlip, RunStatistics, SaddlePush, Slip, StepError};
 use crate::scene::{Quantity, SceneProblem};
 use crate::{Assembly, LawExtrapolation, LinkerEvent, ModelLimitExceeded, Record, UnstableTwist};
 use actin_assembly::Note;
@@ -81,6 +81,17 @@ impl Outcome {
             status,
             wall_s,
             ..Self::default()
+        }
+    }
+
+    /// Adds the warnings about all records of the run.
+    pub(super) fn with_statistics(self, assembly: &Assembly, all: RunStatistics) -> Self {
+        Self {
+            beyond_use: all.beyond_use,
+            beyond_range: all.ranges.end(assembly),
+            unstable_twist: all.twist.end(),
+            step_errors: all.steps.errors(self.time_step_ns.unwrap_or_default()),
+            ..self
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::hinge::slip_between;
 use super::slip::TurnLoss;
-use super::{Outcome, Record, RecordSummary, RunPosition, Sink};
+use super::{Record, RecordSummary, RunPosition, Sink};
 use crate::Assembly;
 use crate::At;
 use actin_mechanics::State;
@@ -69,17 +69,5 @@ impl<'a> RecordStream<'a> {
 
     pub(super) fn checkpoint(&mut self, position: &RunPosition, wall_s: f64) {
         self.sink.checkpoint(position, &self.recorded, wall_s);
-    }
-
-    /// Adds the warnings about all records to the outcome of the run.
-    pub(super) fn into_outcome(self, outcome: Outcome) -> Outcome {
-        let all = self.recorded.carried;
-        Outcome {
-            beyond_use: all.beyond_use,
-            beyond_range: all.ranges.end(self.assembly),
-            unstable_twist: all.twist.end(),
-            step_errors: all.steps.errors(outcome.time_step_ns.unwrap_or_default()),
-            ..outcome
-        }
     }
 }

@@ -146,7 +146,8 @@ impl<'a> Recorder<'a> {
         // Later events belong to no record.
         outcome.events = self.events_until(outcome.steps);
         outcome.pushes = self.pushes;
-        (self.records.into_outcome(outcome), failure)
+        let statistics = self.records.recorded.carried;
+        (outcome.with_statistics(self.assembly, statistics), failure)
     }
 
     fn execute(
@@ -203,14 +204,7 @@ impl<'a> Recorder<'a> {
             }
         };
         if let Some(lost) = self.records.lost.take() {
-            if let Some((good, _)) = self.last_good.take() {
-                outcome.steps = good.here.step;
-                system.state_mut().set_motion(&good.here.motion);
-                // The slipped state was not recorded.
-                self.keep(good);
-            }
-            let place = format!("at {:.4} ns, ", lost.at().value());
-            return Some(Failure::from_turn_loss(lost, place));
+            return Some(self.return_to_last_good(lost, system, outcome));
         }
         outcome.steps = end.steps;
         outcome.force_evaluations = end.force_evaluations;
@@ -224,6 +218,26 @@ impl<'a> Recorder<'a> {
         };
         outcome.at_rest = self.certificate(end.reason, system);
         let certificate = outcome.at_rest.filter(is_saddle)?;
+        Some(self.end_on_saddle(&certificate))
+    }
+
+    fn return_to_last_good(
+        &mut self,
+        lost: TurnLoss,
+        system: &mut System,
+        outcome: &mut Outcome,
+    ) -> Failure {
+        if let Some((good, _)) = self.last_good.take() {
+            outcome.steps = good.here.step;
+            system.state_mut().set_motion(&good.here.motion);
+            // The slipped state was not recorded.
+            self.keep(good);
+        }
+        let place = format!("at {:.4} ns, ", lost.at().value());
+        Failure::from_turn_loss(lost, place)
+    }
+
+    fn end_on_saddle(&mut self, certificate: &Certificate) -> Failure {
         // The last record ended the run and belongs after the last good state. Without an
         // earlier record since the run was resumed, the existing checkpoint stays.
         if let Some((good, Some(recorded))) = self.last_good.take() {
@@ -238,11 +252,7 @@ impl<'a> Recorder<'a> {
             }
             _ => "more pushes or a longer duration_ns may lead off it",
         };
-        Some(Failure::Saddle(saddle(
-            &certificate,
-            self.most_pushes,
-            remedy,
-        )))
+        Failure::Saddle(saddle(certificate, self.most_pushes, remedy))
     }
 
     fn certificate(&mut self, reason: Reason, system: &System) -> Option<Certificate> {

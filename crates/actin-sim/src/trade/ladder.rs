@@ -25,7 +25,7 @@ pub(super) fn at_half_step(full: &FullResolution) -> Scene {
             None => dynamics.step_safety *= 0.5,
         },
         Task::Brownian(brownian) => {
-            brownian.time_step_ns = full.default_ns().map(|step| 0.5 * step)
+            brownian.time_step_ns = full.default_ns().map(|step| 0.5 * step);
         }
     }
     half

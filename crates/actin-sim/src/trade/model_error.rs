@@ -47,6 +47,19 @@ pub(crate) fn model_error(
         error: size - item.size(&here),
         relative: apart(&here),
     };
+    let scatter = scatter(&every, |result| {
+        let value = value(&result.assembly, result.last());
+        [item.size(&value) - size, apart(&value) * size]
+    })?;
+    Ok((error, scatter))
+}
+
+/// Runs filaments with sampled bonds. `compare` returns the difference in size from the value with
+/// quadrature bonds, and the size of the difference.
+fn scatter(
+    every: &Scene,
+    compare: impl Fn(&RunResult) -> [f64; 2],
+) -> Result<Scatter, SceneProblem> {
     let mut scatter = Scatter {
         bonds: 0,
         filaments: FILAMENTS,
@@ -54,15 +67,13 @@ pub(crate) fn model_error(
         deviation: 0.0,
     };
     for seed in 1..=FILAMENTS {
-        let scene = drawn(&every, seed);
-        let result = equilibrium(&scene)?;
-        let value = value(&result.assembly, result.last());
+        let scene = drawn(every, seed);
+        let [shift, apart] = compare(&equilibrium(&scene)?);
         scatter.bonds = scene.filament.monomers.lateral_bonds;
-        scatter.shift += (item.size(&value) - size) / FILAMENTS as f64;
-        let apart = apart(&value) * size;
+        scatter.shift += shift / FILAMENTS as f64;
         scatter.deviation = scatter.deviation.hypot(apart / (FILAMENTS as f64).sqrt());
     }
-    Ok((error, scatter))
+    Ok(scatter)
 }
 
 fn equilibrium(scene: &Scene) -> Result<RunResult, SceneProblem> {
