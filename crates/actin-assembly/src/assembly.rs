@@ -3,7 +3,7 @@
 use crate::kinetics::Kinetics;
 use crate::repulsion::RepulsionModel;
 use crate::rod::Rod;
-use crate::scene::{ClampedEnds, End, Monomers, Scene};
+use crate::scene::{ClampedEnds, End, Filament, Monomers, RodModel, Scene};
 use crate::{
     BodyKind, Clamped, Counts, Drive, FilamentSpan, FrameInfo, InterfaceSampling, PointInfo,
     SectionChoice, SectionSpan, Term,
@@ -70,8 +70,8 @@ pub struct Assembly {
 impl Assembly {
     /// Returns the number of bodies and elements of each kind in all filaments.
     pub fn counts(&self) -> Counts {
-        let (points, frames) = (0..self.points.len(), 0..self.frames.len());
-        self.counts_in(0..self.filaments.len(), points, frames)
+        let filaments = 0..self.filaments.len();
+        filaments.map(|filament| self.counts_of(filament)).sum()
     }
 
     /// Returns the number of bodies and elements of each kind in one filament.
@@ -80,42 +80,24 @@ impl Assembly {
     /// If the index is out of range.
     pub fn counts_of(&self, filament: usize) -> Counts {
         let span = &self.filaments[filament];
-        let (points, frames) = (span.points.clone(), span.frames.clone());
-        self.counts_in(filament..filament + 1, points, frames)
-    }
-
-    fn counts_in(
-        &self,
-        filaments: Range<usize>,
-        points: Range<usize>,
-        frames: Range<usize>,
-    ) -> Counts {
         let state = self.system.state();
-        let free_points = points.clone().filter(|&i| state.points.is_free(i));
-        let free_frames = frames.clone().filter(|&i| state.frames.is_free(i));
-        let held = filaments
-            .clone()
-            .flat_map(|f| [(f, End::Start), (f, End::End)]);
-        let slides = held.filter_map(|(filament, end)| {
-            let clamp = self.clamp_at(filament, end)?;
-            Some(clamp.slides.directions(clamp.axis).len())
-        });
-        let kinds = |kind| {
-            let points = self.points[points.clone()].iter().map(|p| p.kind);
-            points.filter(|k| *k == kind).count()
-        };
-        let segments = self.frames[frames.clone()].iter();
-        let sections = self.filaments[filaments].iter().map(|f| f.sections.clone());
+        let free_points = span.points.clone().filter(|&i| state.points.is_free(i));
+        let free_frames = span.frames.clone().filter(|&i| state.frames.is_free(i));
+        let ends = [End::Start, End::End].into_iter();
+        let clamps = ends.filter_map(|end| self.clamp_at(filament, end));
+        let slides = clamps.map(|clamp| clamp.slides.directions(clamp.axis).len());
+        let points = self.points[span.points.clone()].iter();
+        let frames = self.frames[span.frames.clone()].iter();
+        let sections = span.sections.start..span.sections.end - 1;
         Counts {
-            monomers: kinds(BodyKind::Monomer),
-            segments: segments.filter(|f| f.kind == BodyKind::Segment).count(),
-            bonds: sections
-                .clone()
-                .flat_map(|sections| &self.sections[sections])
+            monomers: points.filter(|p| p.kind == BodyKind::Monomer).count(),
+            bonds: self
+                .sections_of(filament)
+                .iter()
                 .map(SectionSpan::bonds)
                 .sum(),
+            segments: frames.filter(|f| f.kind == BodyKind::Segment).count(),
             junctions: sections
-                .flat_map(|sections| sections.start..sections.end - 1)
                 .filter(|&section| self.is_junction(section))
                 .count(),
             dofs: 3 * (free_points.count() + free_frames.count()) + slides.sum::<usize>(),
@@ -155,6 +137,40 @@ impl Assembly {
         filament
     }
 
+    /// Returns the filament of a section and the index of the section in this filament.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn place_of_section(&self, section: usize) -> (usize, usize) {
+        let filament = self.filament_of_section(section);
+        (filament, section - self.filaments[filament].sections.start)
+    }
+
+    /// Returns the scene of a filament.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn written(&self, filament: usize) -> &Filament {
+        let filament = self.scene.filament_at(filament);
+        filament.expect("the scene has this filament")
+    }
+
+    /// Returns the rod model of a section; for monomers, the model of the rod that represents them.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn rod_model_of(&self, section: usize) -> RodModel {
+        let (filament, i) = self.place_of_section(section);
+        let filament = self.written(filament);
+        filament.sections[i].rod_model(&filament.rod)
+    }
+
+    /// Returns the rod of a section; `None` for monomers.
+    pub(crate) fn rod_of(&self, section: usize) -> Option<&Rod> {
+        let found = self.rods.binary_search_by_key(&section, |rod| rod.section);
+        Some(&self.rods[found.ok()?])
+    }
+
     /// Returns the filament of a point.
     pub fn filament_of_point(&self, point: usize) -> usize {
         self.filaments.partition_point(|f| f.points.end <= point)
@@ -192,13 +208,13 @@ impl Assembly {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub(crate) fn tip_points_of(&self, filament: usize, end: End) -> &[usize] {
+    pub(crate) fn tip_points_of(&self, filament: usize, end: End) -> Range<usize> {
         let sections = self.sections_of(filament);
         let section = match end {
             End::Start => sections.first(),
             End::End => sections.last(),
         };
-        section.map_or(&[], |section| section.tip_points(end))
+        section.map_or(0..0, |section| section.tip_points(end))
     }
 
     /// Position of the tip of filament 0 at `end` in `state` (nm, lab frame).
@@ -212,8 +228,9 @@ impl Assembly {
     /// If the index is out of range.
     pub fn tip_of(&self, filament: usize, state: &State, end: End) -> Vector3 {
         let points = self.tip_points_of(filament, end);
-        let sum: Vector3 = points.iter().map(|&i| state.points.position.get(i)).sum();
-        sum / points.len() as f64
+        let count = points.len() as f64;
+        let sum: Vector3 = points.map(|i| state.points.position.get(i)).sum();
+        sum / count
     }
 
     /// Point `i` projected to the centre line (nm, lab frame). Nodes are unchanged; a monomer's
@@ -237,8 +254,7 @@ impl Assembly {
     /// # Panics
     /// If the index is out of range.
     pub fn monomers_of(&self, filament: usize) -> &Monomers {
-        let filament = self.scene.filament_at(filament);
-        &filament.expect("the scene has this filament").monomers
+        &self.written(filament).monomers
     }
 
     /// Controls of the load factors, in the order of the scene.

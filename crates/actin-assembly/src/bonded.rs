@@ -40,12 +40,11 @@ impl Assembly {
             first_index,
             count: span.points.len(),
         };
-        let filament = self.filament_of_section(section);
-        let first = self.filaments[filament].sections.start;
-        let sections = &self.scene.filament_at(filament)?.sections;
+        let (filament, i) = self.place_of_section(section);
+        let sections = &self.written(filament).sections;
         let of = |section: &Section| section.monomers(self.monomers_of(filament));
-        let own = of(sections.get(section - first)?);
-        let next = sections.get(section - first + 1).map(of);
+        let own = of(&sections[i]);
+        let next = sections.get(i + 1).map(of);
         let next_turn = next.as_ref().unwrap_or(&own).turn_deg.to_radians();
         let model = models::ellipsoids(&own, filament)
             .expect("the assembly was built with these parameters");
@@ -82,8 +81,7 @@ impl Assembly {
         let (before, after) = (&self.sections[junction], &self.sections[junction + 1]);
         let frames = (before.frames.end..after.frames.start)
             .filter(|&frame| self.frames[frame].kind == BodyKind::Junction);
-        let filament = self.scene.filament_at(self.filament_of_section(junction));
-        let filament = filament.expect("the scene has the filament of each section");
+        let filament = self.written(self.filament_of_section(junction));
         let attached = filament.junction.attached_monomers;
         let (monomers, node) = if before.is_ellipsoids() {
             (before, after.points.start)

@@ -1,7 +1,8 @@
 //! Cells of a filament, and the scene with some of them as monomers.
 
-use crate::scene::{AdaptiveResolution, Filament, Scene, SceneProblem, Section};
-use crate::{HeatedSegments, TOO_SHORT, cells_nm, potential};
+use crate::lattice::{Lattice, resolve};
+use crate::scene::{AdaptiveResolution, ClampedEnds, End, Filament, Scene, SceneProblem, Section};
+use crate::{HeatedSegments, TOO_SHORT, potential};
 use actin_cosserat::Homogenised;
 
 /// Tolerance (nm) for equal lengths of cells.
@@ -100,6 +101,31 @@ impl Cells {
     }
 }
 
+/// Boundaries (nm) of cells of filament 0, whose length `length_nm` is rounded to whole monomers.
+///
+/// Each cell holds the number of whole monomers that brings it nearest to `cell_nm`. The last cell
+/// takes the remainder.
+fn cells_nm(scene: &Scene, length_nm: f64, cell_nm: f64) -> Result<Vec<f64>, SceneProblem> {
+    let held = ClampedEnds::new(scene);
+    let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
+    let mut filament = scene.filament.clone();
+    filament.sections = vec![monomers(0.0, length_nm)].into();
+    let length_nm = resolve(&filament, is_held)?[0].to_nm;
+    let lattice = Lattice::new(&scene.filament, is_held);
+    let per_cell = (cell_nm / lattice.rise_nm).round();
+    let cells = (length_nm / (per_cell * lattice.rise_nm)).round().max(1.0);
+    let half = 0.5 * lattice.rise_nm;
+    let places = (1..)
+        .map(|k| f64::from(k) * per_cell)
+        .take_while(|&j| j < (cells - 0.5) * per_cell)
+        .map(|j| lattice.origin_nm + j * lattice.rise_nm + half);
+    let mut boundaries = vec![0.0];
+    boundaries.extend(places);
+    boundaries.push(length_nm);
+    Ok(boundaries)
+}
+
+/// Section of unaltered monomers.
 fn monomers(from_nm: f64, to_nm: f64) -> Section {
     Section::Ellipsoids {
         from_nm,

@@ -47,8 +47,7 @@ impl Assembly {
     /// after the first.
     pub fn name_of(&self, part: Part) -> String {
         let within = |section: usize| {
-            let filament = self.filament_of_section(section);
-            let i = section - self.filaments[filament].sections.start;
+            let (filament, i) = self.place_of_section(section);
             let prefix = match filament {
                 0 => String::new(),
                 _ => format!("filament_{filament}_"),

@@ -3,6 +3,7 @@
 use super::Clamped;
 use crate::scene::path::{self, Values};
 use crate::scene::{ClampedEnds, FreeTranslation, Scene, Setting, Stage, left_jacobian_product};
+use crate::whole::to_count;
 use actin_coupling::Linker;
 use actin_mechanics::{ControlId, State, UnitQuaternion, Vector3, rotation};
 use std::ops::{Add, Mul, Sub};
@@ -165,12 +166,7 @@ impl Drive {
     {
         let last = self.stages;
         let u = u.clamp(0.0, last as f64);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "clamped to the number of stages"
-        )]
-        let stage = (u.floor() as usize).min(last.saturating_sub(1));
+        let stage = to_count(u).min(last.saturating_sub(1));
         let before = values.after(stage);
         let slope = values.after((stage + 1).min(last)) - before;
         (before + slope * (u - stage as f64), slope)

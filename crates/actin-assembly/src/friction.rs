@@ -106,9 +106,7 @@ impl FilamentDrag<'_> {
     }
 
     fn rod(&self, section: usize) -> Option<&RodLayout> {
-        let mut rods = self.assembly.rods.iter();
-        let rod = rods.find(|rod| rod.section == section)?;
-        Some(&rod.layout)
+        Some(&self.assembly.rod_of(section)?.layout)
     }
 
     fn rise(&self) -> f64 {
@@ -172,8 +170,8 @@ impl FilamentDrag<'_> {
 
     /// Transfers rotational friction from the nearest segment to a junction frame.
     fn add_junction(&self, frame: usize, friction: &mut Friction) {
-        let filament = self.assembly.scene.filament_at(self.filament);
-        let attached = filament.map_or(1, |f| f.junction.attached_monomers) as f64;
+        let filament = self.assembly.written(self.filament);
+        let attached = filament.junction.attached_monomers as f64;
         let share = |length: f64| f64::min(self.rise(), OF_SEGMENT * length / attached);
         self.share_turns(frame, share, friction);
     }

@@ -67,7 +67,7 @@ impl Assembly {
             End::Start => (sections.start, RodEnd::Start),
             End::End => (sections.end - 1, RodEnd::End),
         };
-        let rod = self.rods.iter().find(|rod| rod.section == section)?;
+        let rod = self.rod_of(section)?;
         let wall = rod.layout.wall(rod_end)?;
         let behind = *self.clamps[clamp].frames.first()?;
         Some([behind, wall])

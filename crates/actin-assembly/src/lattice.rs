@@ -5,7 +5,8 @@
 //! middle between monomers 0 and 1. This choice depends on the clamps alone, so that a change of
 //! resolution moves no monomer.
 
-use crate::scene::{ClampedEnds, End, Filament, MAX_EXACT_INTEGER, Scene, SceneProblem, Section};
+use crate::scene::{Filament, MAX_EXACT_INTEGER, SceneProblem, Section};
+use crate::whole::to_index;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ResolvedSection {
@@ -42,12 +43,9 @@ impl Lattice {
         self.origin_nm + j as f64 * self.rise_nm
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "`check_reach` refuses places that i64 could not count"
-    )]
+    /// Index of the monomer nearest to an arc length, which `check_reach` limits.
     fn nearest(&self, s_nm: f64) -> i64 {
-        ((s_nm - self.origin_nm) / self.rise_nm).round() as i64
+        to_index(((s_nm - self.origin_nm) / self.rise_nm).round())
     }
 
     /// Index of the monomer whose upper boundary (place plus half a rise) is nearest to `s_nm`.
@@ -84,46 +82,6 @@ pub(super) fn resolve(
             check(i, &sections[i], resolved)
         })
         .collect()
-}
-
-/// Length (nm) of filament 0 made of monomers that is nearest to `length_nm`.
-fn whole_length_nm(scene: &Scene, length_nm: f64) -> Result<f64, SceneProblem> {
-    let held = ClampedEnds::new(scene);
-    let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
-    let mut filament = scene.filament.clone();
-    filament.sections = vec![Section::Ellipsoids {
-        from_nm: 0.0,
-        to_nm: length_nm,
-        altered: None,
-    }]
-    .into();
-    resolve(&filament, is_held).map(|resolved| resolved[0].to_nm)
-}
-
-/// Boundaries (nm) of cells of filament 0, whose length `length_nm` is rounded to whole monomers.
-///
-/// Each cell holds the number of whole monomers that brings it nearest to `cell_nm`. The last cell
-/// takes the remainder.
-pub(crate) fn cells_nm(
-    scene: &Scene,
-    length_nm: f64,
-    cell_nm: f64,
-) -> Result<Vec<f64>, SceneProblem> {
-    let length_nm = whole_length_nm(scene, length_nm)?;
-    let held = ClampedEnds::new(scene);
-    let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
-    let lattice = Lattice::new(&scene.filament, is_held);
-    let monomers = (cell_nm / lattice.rise_nm).round();
-    let cells = (length_nm / (monomers * lattice.rise_nm)).round().max(1.0);
-    let half = 0.5 * lattice.rise_nm;
-    let places = (1..)
-        .map(|k| f64::from(k) * monomers)
-        .take_while(|&j| j < (cells - 0.5) * monomers)
-        .map(|j| lattice.origin_nm + j * lattice.rise_nm + half);
-    let mut boundaries = vec![0.0];
-    boundaries.extend(places);
-    boundaries.push(length_nm);
-    Ok(boundaries)
 }
 
 fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), SceneProblem> {

@@ -94,9 +94,9 @@ impl Law {
         })
     }
 
-    pub(super) fn of_strains(&self) -> (RodMaterial, SegmentLaw) {
-        let coupled = SegmentLaw::from_material(&self.material, self.twist_stretch);
-        (self.material, coupled.unwrap_or_default())
+    /// Coupling of the strains to the curvature; `None` if they are independent.
+    fn coupling(&self) -> Option<SegmentLaw> {
+        SegmentLaw::from_material(&self.material, self.twist_stretch)
     }
 
     pub(super) fn ranges(&self) -> Ranges {
@@ -116,10 +116,8 @@ impl Law {
         if self.twist_stretch.is_none() && self.material.potential().is_none() {
             return None;
         }
-        let law = SegmentLaw::from_material(&self.material, self.twist_stretch)?;
         Some(TwistWatch {
-            law,
-            material: self.material,
+            law: self.coupling()?,
             curvature: self.curvature(layout, around),
         })
     }
@@ -136,7 +134,7 @@ impl Law {
 
     /// Returns `true` if the strains are coupled to the curvature.
     pub(super) fn is_extended(&self) -> bool {
-        SegmentLaw::from_material(&self.material, self.twist_stretch).is_some()
+        self.coupling().is_some()
     }
 
     pub(super) fn interaction(
@@ -149,7 +147,7 @@ impl Law {
         match self.balance {
             ForceLaw::EnergyGradient => {
                 let rod = EnergyGradient::new(own, material);
-                match SegmentLaw::from_material(&material, self.twist_stretch) {
+                match self.coupling() {
                     Some(law) => Box::new(rod.with_extension(law, curvature())),
                     None => Box::new(rod),
                 }

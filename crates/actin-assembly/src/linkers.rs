@@ -4,7 +4,7 @@ use crate::Assembly;
 use crate::kinetics::{COARSEST, Switching};
 use crate::scene::{Kinetics as Rates, SceneProblem};
 use actin_coupling::Linker;
-use actin_mechanics::State;
+use actin_mechanics::{State, Vector3};
 use std::borrow::Cow;
 
 impl Assembly {
@@ -16,6 +16,34 @@ impl Assembly {
                 let linker = switching.linker();
                 (Cow::Owned(linker.linker(state)), linker.is_bound(state))
             }
+        }
+    }
+
+    /// Returns `true` if linkers of the scene break, form or step.
+    pub fn has_events(&self) -> bool {
+        self.kinetics.is_some()
+    }
+
+    /// End positions of linker `i` in `state` (nm, lab frame), and whether it is bound.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn linker_ends(&self, i: usize, state: &State) -> ([Vector3; 2], bool) {
+        let (linker, holds) = self.linker_in(i, state);
+        let ends = [linker.site().position(state), linker.end_position(state)];
+        (ends, holds)
+    }
+
+    /// Tension of linker `i` in `state` (pN): negative in compression, zero if unbound.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn linker_pull_pn(&self, i: usize, state: &State) -> f64 {
+        let (linker, holds) = self.linker_in(i, state);
+        let span = linker.end_position(state) - linker.site().position(state);
+        match span.try_normalize(0.0) {
+            Some(along) if holds => linker.force(state).dot(&along),
+            _ => 0.0,
         }
     }
 

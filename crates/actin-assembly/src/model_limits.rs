@@ -105,15 +105,11 @@ impl Assembly {
         }
         for (i, section) in self.sections.iter().enumerate() {
             if section.is_ellipsoids() {
-                let filament = self.filament_of_section(i);
+                let (filament, place) = self.place_of_section(i);
                 let monomers = self.monomers_of(filament);
-                let written = self.scene.filament_at(filament);
-                let written =
-                    written.map(|f| &f.sections[i - self.filaments[filament].sections.start]);
-                let altered = written.map(|section| section.monomers(monomers));
-                let own = altered.as_ref().unwrap_or(monomers);
+                let own = self.written(filament).sections[place].monomers(monomers);
                 if section.bonds() > 0 {
-                    let bonds = self.largest_change_of_bonds(i, own, state);
+                    let bonds = self.largest_change_of_bonds(i, &own, state);
                     self.push_beyond(&mut found, i, ("bonds", BONDS), bonds);
                 }
                 let overlap = self.largest_overlap(section, monomers, state);
@@ -154,10 +150,10 @@ impl Assembly {
         (s_nm, value): LargestExcess,
     ) {
         if value > limit {
-            let filament = self.filament_of_section(section);
+            let (filament, section) = self.place_of_section(section);
             found.push(ModelLimitExceeded {
                 filament,
-                section: section - self.filaments[filament].sections.start,
+                section,
                 quantity: quantity.to_owned(),
                 s_nm,
                 value,
@@ -202,13 +198,14 @@ impl Assembly {
         largest(changes.map(|(energy, [from, to])| {
             let is_lateral = to - from < 1.5 * monomers.rise_nm;
             let (rigidity, greatest) = if is_lateral {
-                let m = monomers;
-                (m.lateral_rigidity_pn_per_nm, m.lateral_max_bond_nm)
-            } else {
-                let m = monomers;
                 (
-                    m.longitudinal_rigidity_pn_per_nm,
-                    m.longitudinal_max_bond_nm,
+                    monomers.lateral_rigidity_pn_per_nm,
+                    monomers.lateral_max_bond_nm,
+                )
+            } else {
+                (
+                    monomers.longitudinal_rigidity_pn_per_nm,
+                    monomers.longitudinal_max_bond_nm,
                 )
             };
             let change = (2.0 * energy / rigidity).sqrt() / greatest;

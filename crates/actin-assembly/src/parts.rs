@@ -3,6 +3,7 @@
 use super::built_axis::BuiltAxis;
 use crate::scene::{End, WallName};
 use actin_mechanics::{UnitQuaternion, Vector3};
+use std::iter::Sum;
 use std::ops::Range;
 
 /// Reach of a bond or segment in rises or segments, with a margin.
@@ -165,8 +166,8 @@ pub struct SectionSpan {
     pub points: Range<usize>,
     /// Range of the frames of its monomers or segments.
     pub frames: Range<usize>,
-    pub(super) first_tip: Vec<usize>,
-    pub(super) last_tip: Vec<usize>,
+    /// Points whose mean is the tip at the start and at the end.
+    pub(super) tips: [Range<usize>; 2],
 }
 
 /// Resolution of a section.
@@ -209,11 +210,8 @@ impl SectionSpan {
         matches!(self.resolution, Resolution::Ellipsoids { .. })
     }
 
-    pub(super) fn tip_points(&self, end: End) -> &[usize] {
-        match end {
-            End::Start => &self.first_tip,
-            End::End => &self.last_tip,
-        }
+    pub(super) fn tip_points(&self, end: End) -> Range<usize> {
+        self.tips[end as usize].clone()
     }
 }
 
@@ -230,4 +228,16 @@ pub struct Counts {
     pub junctions: usize,
     /// Degrees of freedom of the free bodies.
     pub dofs: usize,
+}
+
+impl Sum for Counts {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), |sum, one| Self {
+            monomers: sum.monomers + one.monomers,
+            bonds: sum.bonds + one.bonds,
+            segments: sum.segments + one.segments,
+            junctions: sum.junctions + one.junctions,
+            dofs: sum.dofs + one.dofs,
+        })
+    }
 }

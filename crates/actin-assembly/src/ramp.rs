@@ -1,9 +1,9 @@
 //! Path of a scene in time, with smooth ramps, and time-dependent load factors.
 
-use super::{Assembly, Drive, Part};
+use super::{Assembly, Drive, LinkerEvent, Part};
 use crate::At;
 use crate::scene::{Factor, TimeCourse, smooth};
-use actin_mechanics::{ControlId, Interaction, State, Vector3};
+use actin_mechanics::{ControlId, Interaction, State};
 
 /// A [`Drive`] in time: stages follow one another with their durations. Controls are constant after
 /// the last stage.
@@ -182,26 +182,17 @@ impl Assembly {
         }
     }
 
-    /// End positions of linker `i` in `state` (nm, lab frame), and whether it is bound.
-    ///
-    /// # Panics
-    /// If the index is out of range.
-    pub fn linker_ends(&self, i: usize, state: &State) -> ([Vector3; 2], bool) {
-        let (linker, holds) = self.linker_in(i, state);
-        let ends = [linker.site().position(state), linker.end_position(state)];
-        (ends, holds)
-    }
-
-    /// Tension of linker `i` in `state` (pN): negative in compression, zero if unbound.
-    ///
-    /// # Panics
-    /// If the index is out of range.
-    pub fn linker_pull_pn(&self, i: usize, state: &State) -> f64 {
-        let (linker, holds) = self.linker_in(i, state);
-        let span = linker.end_position(state) - linker.site().position(state);
-        match span.try_normalize(0.0) {
-            Some(along) if holds => linker.force(state).dot(&along),
-            _ => 0.0,
+    /// Sets the controls of a state at a time or place of the path: load factors, anchors, held
+    /// bodies, and linkers after the `events` up to then.
+    pub fn restore_controls(&self, state: &mut State, at: At, events: &[LinkerEvent]) {
+        self.place_controls(state, at);
+        let (At::Time(time_ns), Some(kinetics)) = (at, &self.kinetics) else {
+            return;
+        };
+        for event in events.iter().take_while(|event| event.time_ns <= time_ns) {
+            if let Some(switching) = kinetics.linker(event.linker) {
+                switching.restore(state, event);
+            }
         }
     }
 }

@@ -1,22 +1,22 @@
 //! Detection of states outside the data of fitted rod laws.
 
 use super::Assembly;
-use super::extrapolation::MeasuredError;
 use crate::rod::{Ranges, Rod};
 use crate::scene::RodLaw;
 use actin_cosserat::BendingElement;
 use actin_mechanics::{State, Vector3};
-use serde::{Deserialize, Serialize};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt;
 
 /// Deformation of a rod beyond the data of a fitted law.
 ///
 /// In files, `value` and `range` of twist and curvature are `value_per_nm` and `range_per_nm`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(into = "LawExtrapolationFile", from = "LawExtrapolationFile")]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct LawExtrapolation {
     /// Index of the filament.
+    #[serde(default)]
     pub filament: usize,
     /// Index of the section in its filament.
     pub section: usize,
@@ -25,8 +25,10 @@ pub struct LawExtrapolation {
     /// Arc length of the largest value (nm, at rest).
     pub s_nm: f64,
     /// Largest value (rad/nm, or a strain).
+    #[serde(alias = "value_per_nm")]
     pub value: f64,
     /// Limit of the data (rad/nm, or a strain); in compression the lower bound.
+    #[serde(alias = "range_per_nm")]
     pub range: f64,
     /// Frequency of the excess in a heat bath; `None` without a bath.
     pub fluctuations: Option<Fluctuations>,
@@ -81,60 +83,66 @@ pub(super) fn percent(share: f64) -> String {
     }
 }
 
-#[derive(Clone, Serialize, Deserialize)]
-struct LawExtrapolationFile {
-    #[serde(default)]
-    filament: usize,
-    section: usize,
-    quantity: String,
-    s_nm: f64,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    value_per_nm: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    range_per_nm: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    value: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    range: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    fluctuations: Option<Fluctuations>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    measured_error: Option<MeasuredError>,
-}
-
-impl From<LawExtrapolation> for LawExtrapolationFile {
-    fn from(beyond: LawExtrapolation) -> Self {
-        let (value, range) = (Some(beyond.value), Some(beyond.range));
-        let is_strain = beyond.is_strain();
-        let of_strain = |number: Option<f64>| number.filter(|_| is_strain);
-        let per_nm = |number: Option<f64>| number.filter(|_| !is_strain);
-        Self {
-            filament: beyond.filament,
-            section: beyond.section,
-            quantity: beyond.quantity,
-            s_nm: beyond.s_nm,
-            value_per_nm: per_nm(value),
-            range_per_nm: per_nm(range),
-            value: of_strain(value),
-            range: of_strain(range),
-            fluctuations: beyond.fluctuations,
-            measured_error: beyond.measured_error,
+impl Serialize for LawExtrapolation {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let [value, range] = if self.is_strain() {
+            ["value", "range"]
+        } else {
+            ["value_per_nm", "range_per_nm"]
+        };
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("filament", &self.filament)?;
+        map.serialize_entry("section", &self.section)?;
+        map.serialize_entry("quantity", &self.quantity)?;
+        map.serialize_entry("s_nm", &self.s_nm)?;
+        map.serialize_entry(value, &self.value)?;
+        map.serialize_entry(range, &self.range)?;
+        if let Some(fluctuations) = &self.fluctuations {
+            map.serialize_entry("fluctuations", fluctuations)?;
         }
+        if let Some(error) = &self.measured_error {
+            map.serialize_entry("measured_error", error)?;
+        }
+        map.end()
     }
 }
 
-impl From<LawExtrapolationFile> for LawExtrapolation {
-    fn from(written: LawExtrapolationFile) -> Self {
-        Self {
-            filament: written.filament,
-            section: written.section,
-            quantity: written.quantity,
-            s_nm: written.s_nm,
-            value: written.value_per_nm.or(written.value).unwrap_or(f64::NAN),
-            range: written.range_per_nm.or(written.range).unwrap_or(f64::NAN),
-            fluctuations: written.fluctuations,
-            measured_error: written.measured_error,
-        }
+/// Largest errors of cantilevers of 62 to 303 nm under transverse tip forces of 1 to 10 pN, in five
+/// groups per quantity.
+///
+/// # Source
+/// `cargo xtask load-cases --beyond --write`.
+const MEASURED: &str = include_str!("extrapolation.csv");
+
+/// Largest relative error of the tip displacement over cantilevers that extrapolate their law up to
+/// `up_to`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeasuredError {
+    /// Largest value of the quantity in the group (strain, or rad/nm).
+    pub up_to: f64,
+    /// Error against the mean of monomers over azimuths of the lattice.
+    pub of_mean: f64,
+    /// Error against monomers at one azimuth.
+    pub of_one_azimuth: f64,
+}
+
+impl MeasuredError {
+    /// Returns the error of the first group that reaches `value`, or `None` beyond all groups.
+    fn at(quantity: &str, value: f64) -> Option<Self> {
+        let reaches = |up_to: f64| up_to.signum() == value.signum() && up_to.abs() >= value.abs();
+        let rows = MEASURED.lines().skip(1).filter_map(|line| {
+            let (name, numbers) = line.split_once(',')?;
+            let numbers: Vec<f64> = numbers.split(',').filter_map(|n| n.parse().ok()).collect();
+            let [up_to, of_mean, of_one_azimuth] = numbers[..] else {
+                return None;
+            };
+            (name == quantity && reaches(up_to)).then_some(Self {
+                up_to,
+                of_mean,
+                of_one_azimuth,
+            })
+        });
+        rows.min_by(|a, b| a.up_to.abs().total_cmp(&b.up_to.abs()))
     }
 }
 
@@ -205,14 +213,11 @@ impl Assembly {
         excess: Excess,
         fluctuations: Option<Fluctuations>,
     ) -> LawExtrapolation {
-        let filament = self.filament_of_section(excess.section);
-        let section = excess.section - self.filaments[filament].sections.start;
+        let (filament, section) = self.place_of_section(excess.section);
         let quantity = QUANTITIES[excess.quantity].name;
-        let written = self.scene.filament_at(filament);
-        let law = written.map(|f| f.sections[section].rod_model(&f.rod).law);
-        let is_measured = match law {
-            Some(RodLaw::Homogenised) => self.scene.thermal().is_none(),
-            Some(RodLaw::HomogenisedAthermal) => true,
+        let is_measured = match self.rod_model_of(excess.section).law {
+            RodLaw::Homogenised => self.scene.thermal().is_none(),
+            RodLaw::HomogenisedAthermal => true,
             _ => false,
         };
         let measured = is_measured.then(|| MeasuredError::at(quantity, excess.value));
@@ -349,20 +354,20 @@ pub(super) fn bends<'a>(
     rod: &'a Rod,
     state: &'a State,
 ) -> impl Iterator<Item = (f64, Vector3)> + 'a {
-    let rest = rod.ranges.rest;
+    let rest = rod.material.rest_curvature();
     curvatures(rod, state).map(move |(s, kappa)| (s, kappa - rest))
 }
 
 /// Strain of every segment of a rod under a potential, with the arc length of its middle (nm). The
 /// third component is relative to the natural length.
 fn strains<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vector3)> + 'a {
-    let potential = rod.twist_watch.as_ref();
-    let potential = potential.and_then(|watch| Some((watch, watch.material.potential()?)));
+    let potential = rod.twist_watch.as_ref().zip(rod.material.potential());
     potential.into_iter().flat_map(move |(watch, law)| {
         let middles = rod.layout.element_positions();
+        let rest = rod.material.rest_curvature();
         (0..rod.layout.segments()).map(move |k| {
             let (mut sigma, kappa) = watch.strains(rod, k, state);
-            sigma.z -= law.natural_stretch(kappa.z - rod.ranges.rest.z);
+            sigma.z -= law.natural_stretch(kappa.z - rest.z);
             (middles[k], sigma)
         })
     })
@@ -530,5 +535,25 @@ mod tests {
         let segment = 2.0 * (assembly.frames[section.frames.start].s_nm - section.from_nm);
         let distance = 0.5 * segment + 0.25 * 2.7385;
         assert!((beyond.value + 0.4 / distance).abs() < 1e-3 * 0.4 / distance);
+    }
+
+    #[test]
+    fn errors_are_given_as_far_as_they_were_measured() {
+        for (quantity, near, far) in [
+            ("shear", 0.0151, 0.025),
+            ("curvature", 0.0101, 0.02),
+            ("stretch", -0.0021, -0.01),
+        ] {
+            let [near, far] = [near, far].map(|value| MeasuredError::at(quantity, value).unwrap());
+            assert!(near.up_to.abs() < far.up_to.abs());
+            for error in [near, far] {
+                assert!(0.0 < error.of_mean && error.of_mean <= error.of_one_azimuth);
+                assert!(error.of_one_azimuth < 0.2, "{error:?}");
+            }
+            assert!(near.of_mean <= far.of_mean);
+        }
+        for (quantity, value) in [("shear", 0.05), ("stretch", 0.01), ("twist", 0.06)] {
+            assert_eq!(MeasuredError::at(quantity, value), None);
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use actin_cosserat::{
     BendLaw, JoinedElement, RodLayout, RodMaterial, SegmentCurvature, SegmentLaw, ShearElement,
-    StrainRange, TwistStretch,
+    TwistStretch,
 };
 use actin_mechanics::{State, Vector3};
 
@@ -12,8 +12,7 @@ pub(crate) struct Rod {
     /// Index of its section.
     pub section: usize,
     pub layout: RodLayout,
-    /// Material and coupling of its strains.
-    pub law: (RodMaterial, SegmentLaw),
+    pub material: RodMaterial,
     /// Ranges of the data of the laws.
     pub ranges: Ranges,
     /// Elements that join the start and the end to the frames of junctions.
@@ -26,7 +25,6 @@ pub(crate) struct Rod {
 #[derive(Debug)]
 pub(crate) struct TwistWatch {
     pub(crate) law: SegmentLaw,
-    pub(crate) material: RodMaterial,
     pub(crate) curvature: SegmentCurvature,
 }
 
@@ -46,15 +44,13 @@ impl TwistWatch {
     /// Tangent of the twist of segment `k` (pN nm^2).
     pub(crate) fn tangent(&self, rod: &Rod, k: usize, state: &State) -> f64 {
         let (sigma, kappa) = self.strains(rod, k, state);
-        self.law.twist_tangent(&self.material, sigma, kappa)
+        self.law.twist_tangent(&rod.material, sigma, kappa)
     }
 }
 
 /// Ranges of the data of the laws of a rod; `None` without a bound.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Ranges {
-    /// Curvature at rest, from which deformations are counted.
-    pub(crate) rest: Vector3,
     pub(crate) twist: Option<f64>,
     pub(crate) curvature: Option<f64>,
     pub(crate) shear: Option<f64>,
@@ -64,31 +60,23 @@ pub(crate) struct Ranges {
 
 impl Ranges {
     pub(crate) fn new(material: &RodMaterial, length: Option<&TwistStretch>) -> Self {
+        let finite = |bound: f64| Some(bound).filter(|bound| bound.is_finite());
         if let Some(law) = material.potential() {
+            let range = law.range();
             return Self {
-                rest: material.rest_curvature(),
-                ..Self::of_potential(law.range())
+                twist: finite(range.twist),
+                curvature: finite(range.curvature),
+                shear: finite(range.shear),
+                stretch: Some(range.stretch).filter(|bounds| bounds.iter().all(|b| b.is_finite())),
             };
         }
         let laws = material.laws();
         let twist = laws.and_then(|laws| laws.twist().range());
         let both = twist.into_iter().chain(length.map(TwistStretch::range));
         Self {
-            rest: material.rest_curvature(),
-            twist: both.reduce(f64::min).filter(|range| range.is_finite()),
+            twist: both.reduce(f64::min).and_then(finite),
             curvature: laws.and_then(|laws| BendLaw::range(laws.bend())),
             ..Self::default()
-        }
-    }
-
-    fn of_potential(range: &StrainRange) -> Self {
-        let finite = |bound: f64| Some(bound).filter(|bound| bound.is_finite());
-        Self {
-            twist: finite(range.twist),
-            curvature: finite(range.curvature),
-            shear: finite(range.shear),
-            stretch: Some(range.stretch).filter(|bounds| bounds.iter().all(|b| b.is_finite())),
-            rest: Vector3::zeros(),
         }
     }
 }

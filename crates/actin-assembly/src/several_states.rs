@@ -50,7 +50,7 @@ impl Assembly {
     /// states.
     fn several_states(&self, state: &State) -> impl Iterator<Item = (usize, [f64; 2])> {
         let rods = self.rods.iter();
-        let under_potential = rods.filter(|rod| rod.law.0.potential().is_some());
+        let under_potential = rods.filter(|rod| rod.material.potential().is_some());
         under_potential.flat_map(|rod| {
             let filament = self.filament_of_section(rod.section);
             let from_nm = self.sections[rod.section].from_nm;

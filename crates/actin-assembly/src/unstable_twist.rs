@@ -103,20 +103,20 @@ impl Assembly {
             return None;
         }
         let (sigma, kappa) = watch.strains(rod, k, state);
-        let stability = watch.law.twist_stability(&watch.material, sigma, kappa);
-        let filament = self.filament_of_section(rod.section);
+        let stability = watch.law.twist_stability(&rod.material, sigma, kappa);
+        let (filament, section) = self.place_of_section(rod.section);
         let middle = rod.layout.element_positions()[k];
         Some(Weakest {
             tangent: stability.tangent,
             found: UnstableTwist {
                 filament,
-                section: rod.section - self.filaments[filament].sections.start,
+                section,
                 s_nm: self.sections[rod.section].from_nm + middle,
                 twist_per_nm: kappa.z,
                 curvature_per_nm: kappa.x.hypot(kappa.y),
                 compression_pn: -stability.tension,
                 bound_pn: (watch.law)
-                    .critical_tension(&watch.material, sigma, kappa)
+                    .critical_tension(&rod.material, sigma, kappa)
                     .map(|n| -n),
                 share_of_records: 1.0,
             },

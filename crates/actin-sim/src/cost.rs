@@ -66,25 +66,21 @@ impl Plan<'_> {
         };
         let steps = steps.max(1);
         let step_s = watch.measured_s() / steps as f64;
-        let run_s = match self.estimate() {
-            _ if outcome.status != Status::Interrupted => Some(elapsed_s),
-            Some(estimate) => {
-                Some(elapsed_s + estimate.steps.saturating_sub(steps) as f64 * step_s)
-            }
-            None => None,
+        let left = match outcome.status {
+            Status::Interrupted => self.estimate().map(|all| all.steps.saturating_sub(steps)),
+            _ => Some(0),
         };
         Some(Timing {
             steps,
             step_s,
-            total_s: run_s.map(|s| self.set_up_s() + s),
+            total_s: left.map(|left| self.set_up_s() + elapsed_s + left as f64 * step_s),
         })
     }
 }
 
 fn elements(assembly: &Assembly, filament: usize) -> usize {
     let counts = assembly.counts_of(filament);
-    let scene = assembly.scene.filament_at(filament);
-    let attached = scene.map_or(0, |one| one.junction.attached_monomers);
+    let attached = assembly.written(filament).junction.attached_monomers;
     counts.segments + counts.junctions * attached
 }
 

@@ -14,13 +14,13 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-mod build;
 mod codes;
 mod cost;
 mod ensemble;
 mod error;
 mod execute;
 pub mod follow;
+mod loads;
 mod memory;
 mod notes;
 mod observe;
@@ -63,7 +63,6 @@ pub use actin_scene::{
 };
 pub use actin_scene::{ParseReport, read_all, read_ron, to_ron};
 
-pub use build::build;
 pub use cost::{Cost, Timing};
 pub use ensemble::{Ensemble, EnsembleError, Replica};
 pub use error::SimError;
@@ -81,3 +80,4 @@ pub use summary::{
     LinkerSummary, ResidualSummary, ShapeSummary, StabilitySummary, StateSummary, StatesSummary,
     Summary, ThermalSummary, WorkSummary,
 };
+pub use trade::build;

@@ -1,7 +1,8 @@
 //! Memory of records.
 
 use crate::Assembly;
-use crate::observe::Observers;
+use crate::observe::observed_columns;
+use crate::scene::SceneProblem;
 use actin_mechanics::State;
 
 /// Numbers of a record in addition to state, energies and observed quantities: time, kinetic
@@ -15,17 +16,27 @@ fn of_record(state: &State, terms: usize) -> f64 {
 }
 
 /// Bytes that the run of an assembly keeps per record; the state counts only if a file needs it.
-pub(crate) fn of_kept_record(assembly: &Assembly) -> f64 {
-    let (terms, columns) = (
-        assembly.terms.len(),
-        Observers::new(assembly).columns().len(),
-    );
-    let observed = 8.0 * columns as f64;
+fn of_kept_record(assembly: &Assembly) -> f64 {
+    let terms = assembly.terms.len();
+    let observed = 8.0 * observed_columns(assembly).len() as f64;
     if assembly.scene.output.needs_states() {
         of_record(assembly.system.state(), terms) + observed
     } else {
         8.0 * (NUMBERS_OF_ROW + terms) as f64 + observed
     }
+}
+
+/// Refuses a run whose records exceed the memory of the machine. `what` describes the records, given
+/// the number of bodies.
+pub(crate) fn check_records(
+    assembly: &Assembly,
+    records: f64,
+    key: (&str, String),
+    what: impl FnOnce(usize) -> String,
+) -> Result<(), SceneProblem> {
+    let bytes = assembly.bytes + records * of_kept_record(assembly);
+    let bodies = assembly.points.len() + assembly.frames.len();
+    actin_assembly::memory::check(bytes, key, || what(bodies))
 }
 
 #[cfg(test)]

@@ -7,9 +7,9 @@ use crate::{Assembly, Outcome, Record};
 use actin_assembly::Note;
 
 /// Largest energy error without a warning, over the energy exchanged by a motion.
-const LEDGER_OPEN: f64 = 0.01;
+const LARGEST_SHARE: f64 = 0.01;
 /// Largest energy error without a warning (pN nm).
-const LEDGER_LEAST: f64 = 1e-3;
+const LEAST_PN_NM: f64 = 1e-3;
 
 impl Outcome {
     /// Returns notes on unknown errors and states of this run; `last` is its last record.
@@ -58,7 +58,7 @@ impl Outcome {
             self.largest_kinetic_pn_nm,
         ];
         let size = sizes.iter().fold(0.0, |most: f64, one| most.max(one.abs()));
-        let is_open = open.abs() > LEDGER_LEAST.max(LEDGER_OPEN * size);
+        let is_open = open.abs() > LEAST_PN_NM.max(LARGEST_SHARE * size);
         (is_known && is_open).then(|| {
             format!(
                 "the final energy differs by {open:+.3} pN nm from the balance of work and drag, at an exchange of {size:.3} \

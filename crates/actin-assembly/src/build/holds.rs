@@ -3,7 +3,7 @@
 use super::{Body, Builder};
 use crate::hinge::Hinge;
 use crate::scene::{Clamp, End, SceneProblem};
-use crate::{Clamped, Part, models};
+use crate::{Clamped, Part, models, problem_at};
 use actin_mechanics::Slider;
 use std::ops::Range;
 
@@ -96,9 +96,8 @@ impl Builder<'_> {
                 // frame.
                 if let Some(wall) = layout.wall(models::rod_end(clamp.end)) {
                     state.frames.release(wall);
-                    let hinge = Hinge::new(clamp, [anchor, wall]).map_err(|error| {
-                        SceneProblem::new(format!("clamps[{i}].hinge"), "", error.to_string())
-                    })?;
+                    let hinge = Hinge::new(clamp, [anchor, wall])
+                        .map_err(problem_at(format!("clamps[{i}].hinge")))?;
                     self.stock.push_term(Box::new(hinge), Part::Clamp(i));
                 }
                 Ok((held.points, anchor..anchor + 1))

@@ -1,10 +1,10 @@
 //! Interactions within one filament: sections and the junctions between them.
 
 use super::SceneParts;
-use super::strand::{Body, Strand, junction_problem};
+use super::strand::{Body, Strand};
 use crate::law::EndConditions;
 use crate::scene::SceneProblem;
-use crate::{Part, Resolution, Rod, models};
+use crate::{Part, Resolution, Rod, models, problem_at};
 use actin_cosserat::RodLayout;
 use actin_coupling::{AttachedMonomer, Junction, JunctionParts, JunctionSide};
 use actin_ellipsoid::{Monomers, QuasiHarmonic};
@@ -80,7 +80,7 @@ impl Strand<'_> {
         Rod {
             section: self.first_section + i,
             layout: layout.clone(),
-            law: self.laws[i].of_strains(),
+            material: self.laws[i].material,
             ranges: self.laws[i].ranges(),
             joined: around.joined.clone(),
             twist_watch: self.laws[i].twist_watch(layout, around),
@@ -120,7 +120,7 @@ impl Strand<'_> {
         };
         let junction = Junction::new(&stock.state, parts);
         let twist = self.filament.sections[monomers].rest_curvature(&self.filament.monomers);
-        let junction = junction.map_err(|error| junction_problem(&error))?;
+        let junction = junction.map_err(problem_at("filament.junction"))?;
         let junction = junction.with_monomer_twist(twist.z);
         Ok(if self.laws[rod].is_extended() {
             junction.with_extended_rod()

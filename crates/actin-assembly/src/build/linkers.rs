@@ -3,7 +3,7 @@
 use super::{Body, Builder, Strand};
 use crate::lattice::ResolvedSection;
 use crate::scene::{self, LinkerSite, SceneProblem, path};
-use crate::{Assembly, Kinetics, Part, SiteTable};
+use crate::{Assembly, Kinetics, Part, SiteTable, problem_at};
 use actin_cosserat::RodLayout;
 use actin_coupling::{
     Anchor, Hand, Linker, LinkerAngles, LinkerEnd, LinkerError, PeriodicCell, PeriodicImage,
@@ -58,9 +58,7 @@ impl Builder<'_> {
             return Ok(());
         };
         let angles = LinkerAngles::new(built, (tilt.1, twist.1), &self.stock.state);
-        let angles = angles.map_err(|error| {
-            SceneProblem::new(format!("linkers[{i}].{name}"), "", error.to_string())
-        })?;
+        let angles = angles.map_err(problem_at(format!("linkers[{i}].{name}")))?;
         self.stock
             .push_term(Box::new(angles.clone()), Part::Linker(i));
         self.angles.push(angles);
@@ -74,9 +72,8 @@ impl Builder<'_> {
     pub(super) fn push_beads(&mut self) -> Result<(), SceneProblem> {
         let mut nodes = Nodes::default();
         for (i, bead) in self.scene.beads.iter().enumerate() {
-            let site = self.site(&bead.site, &mut nodes).map_err(|error| {
-                SceneProblem::new(format!("beads[{i}].site"), "", error.to_string())
-            })?;
+            let site = self.site(&bead.site, &mut nodes);
+            let site = site.map_err(problem_at(format!("beads[{i}].site")))?;
             self.beads.push((site, bead.radius_nm));
         }
         Ok(())
@@ -90,8 +87,6 @@ impl Builder<'_> {
         built: &Linker,
         nodes: &mut Nodes,
     ) -> Result<(), SceneProblem> {
-        let refused =
-            |error: LinkerError| SceneProblem::new(format!("linkers[{i}]"), "", error.to_string());
         let table = match (&kinetics.roams, &kinetics.steps) {
             (Some(roams), steps) => {
                 let is_reversed = steps.is_some_and(|steps| steps.step_nm < 0.0);
@@ -111,7 +106,7 @@ impl Builder<'_> {
                 self.table(places.into_iter().map(at), nodes)
             }
         };
-        let table = table.map_err(refused)?;
+        let table = table.map_err(problem_at(format!("linkers[{i}]")))?;
         let state = &mut self.stock.state;
         let hand = Hand::new(state, Arc::clone(&table.sites), 0, kinetics.bound);
         let switched = if kinetics.roams.is_some() {
@@ -182,11 +177,10 @@ impl Builder<'_> {
         controls: Option<[ControlId; 3]>,
         nodes: &mut Nodes,
     ) -> Result<Linker, SceneProblem> {
-        let refused =
-            |error: LinkerError| SceneProblem::new(format!("linkers[{i}]"), "", error.to_string());
-        let site = self.site(&linker.site(), nodes).map_err(refused)?;
+        let refused = problem_at(format!("linkers[{i}]"));
+        let site = self.site(&linker.site(), nodes).map_err(&refused)?;
         let end = match &linker.to {
-            Some(other) => LinkerEnd::Site(self.site(other, nodes).map_err(refused)?),
+            Some(other) => LinkerEnd::Site(self.site(other, nodes).map_err(&refused)?),
             None => LinkerEnd::Anchor(Anchor {
                 position: self.anchor(linker, &site),
                 controls,
@@ -297,7 +291,7 @@ impl Assembly {
         }
         let past = sections.partition_point(|section| section.to_nm < s_nm);
         let section = span.sections.start + past.min(sections.len() - 1);
-        let site = if let Some(rod) = self.rods.iter().find(|rod| rod.section == section) {
+        let site = if let Some(rod) = self.rod_of(section) {
             let from_start = s_nm - self.sections[section].from_nm;
             let place = RodPlace::on_axis(&rod.layout, &rod.layout.node_positions(), from_start);
             Site::on_rod(&rod.layout, place)

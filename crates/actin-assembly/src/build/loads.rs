@@ -3,7 +3,7 @@
 use super::linkers::Nodes;
 use super::{Body, Builder, Strand};
 use crate::scene::{Couple, End, Force, LinkerSite, Load, Resultant, SceneProblem, path::UNSET};
-use crate::{BodyKind, Part, models};
+use crate::{BodyKind, Part, models, problem_at};
 use actin_cosserat::RodLayout;
 use actin_coupling::{ForceKind, LinkerError, RodPlace, Site, SiteForce};
 use actin_ellipsoid::Monomers;
@@ -11,6 +11,7 @@ use actin_mechanics::{
     ControlId, Couple as FrameCouple, CoupleKind, Interaction, Loads, PointLoad, Residual, Vector3,
 };
 use std::error::Error;
+use std::ops::Range;
 
 type Shares = Vec<(usize, f64)>;
 
@@ -19,10 +20,8 @@ impl Builder<'_> {
         let mut nodes = Nodes::default();
         for (i, load) in self.scene.loads.iter().enumerate() {
             let control = self.stock.state.add_control(UNSET);
-            let refused = |error: Box<dyn Error>| {
-                SceneProblem::new(format!("loads[{i}]"), "", error.to_string())
-            };
-            let interaction = self.load(load, control, &mut nodes).map_err(refused)?;
+            let interaction = self.load(load, control, &mut nodes);
+            let interaction = interaction.map_err(problem_at(format!("loads[{i}]")))?;
             let is_zero = load.written().1.iter().all(|x| *x == 0.0);
             if !is_zero && !self.moves(&*interaction, control) {
                 let rule = "acts only on held bodies, so it has no effect";
@@ -56,7 +55,7 @@ impl Builder<'_> {
             (Load::EndForce { filament, end, .. }, _) => {
                 let points = self.tip(*filament, *end);
                 let share = 1.0 / points.len() as f64;
-                let shares = points.iter().map(|&point| (point, share)).collect();
+                let shares = points.map(|point| (point, share)).collect();
                 Box::new(PointLoad::new(state, shares, size, control)?)
             }
             (Load::Acceleration(load), _) => {
@@ -87,7 +86,7 @@ impl Builder<'_> {
         })
     }
 
-    fn tip(&self, filament: usize, end: End) -> &[usize] {
+    fn tip(&self, filament: usize, end: End) -> Range<usize> {
         let strand = &self.strands[filament];
         let section = strand.first_section + strand.filament.end_index(end);
         self.stock.sections[section].tip_points(end)
@@ -167,12 +166,11 @@ impl Builder<'_> {
                 Ok(vec![(Site::on_rod(layout, place)?, 1.0)])
             }
             Body::Monomers(monomers) => {
-                let section = strand.first_section + strand.filament.end_index(end);
-                let points = self.stock.sections[section].tip_points(end);
+                let points = self.tip(strand.index, end);
                 let share = 1.0 / points.len() as f64;
                 let frame = |point: usize| monomers.frame(point - monomers.first_point);
-                let site = |&point: &usize| Site::on_monomer(point, frame(point), Vector3::zeros());
-                points.iter().map(|p| Ok((site(p)?, share))).collect()
+                let site = |point| Site::on_monomer(point, frame(point), Vector3::zeros());
+                points.map(|point| Ok((site(point)?, share))).collect()
             }
         }
     }

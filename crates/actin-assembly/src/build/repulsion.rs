@@ -1,9 +1,9 @@
 //! Repulsion between parts of filaments and walls.
 
 use super::{Body, Builder, Strand};
-use crate::Part;
 use crate::repulsion::RepulsionModel;
 use crate::scene::SceneProblem;
+use crate::{Part, problem_at};
 use actin_cosserat::RodLayout;
 use actin_coupling::repulsion::{
     Axis, Capsule, ContactParameters, Contacts, RepulsionError, WallContact,
@@ -20,8 +20,8 @@ impl Builder<'_> {
         let Some(repulsion) = &self.scene.repulsion else {
             return Ok(());
         };
-        let refused = |e: RepulsionError| SceneProblem::new("repulsion", "", e.to_string());
-        let capsules = self.capsules().map_err(refused)?;
+        let refused = problem_at("repulsion");
+        let capsules = self.capsules().map_err(&refused)?;
         let (radius, stiffness) = (repulsion.radius_nm, repulsion.stiffness_pn_per_nm);
         let parameters = ContactParameters {
             radius,
@@ -32,17 +32,17 @@ impl Builder<'_> {
             .filaments
             .then(|| Contacts::new(capsules.clone(), parameters))
             .transpose()
-            .map_err(refused)?
+            .map_err(&refused)?
             .map(|contacts| contacts.with_cell(self.cell));
         if let Some(contacts) = &contacts {
             self.stock
                 .push_term(Box::new(contacts.clone()), Part::Contacts);
         }
         let mut walls = Vec::new();
-        for (name, wall) in repulsion.walls().map_err(refused)? {
+        for (name, wall) in repulsion.walls().map_err(&refused)? {
             let part = Part::Wall(name);
             let wall =
-                WallContact::new(capsules.clone(), wall, radius, stiffness).map_err(refused)?;
+                WallContact::new(capsules.clone(), wall, radius, stiffness).map_err(&refused)?;
             self.stock.push_term(Box::new(wall.clone()), part);
             walls.push((part, wall));
         }

@@ -9,8 +9,9 @@
 
 use super::strand::{Body, Strand};
 use crate::InterfaceSampling;
-use crate::models;
 use crate::scene::{Interfaces, SceneProblem, Task};
+use crate::whole::to_steps;
+use crate::{models, problem_at};
 use actin_ellipsoid::{Anchors, Fluctuations, Link, Monomers, Placement, QuasiHarmonic};
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
 use actin_mechanics::{Interaction, State, System, Vector3, rotation};
@@ -197,15 +198,13 @@ impl Strand<'_> {
     }
 
     fn alone(&self, pieces: &[Piece]) -> Result<IsolatedStrand, SceneProblem> {
-        let refused = |error: &dyn std::error::Error| {
-            SceneProblem::new("filament.sections", "", error.to_string())
-        };
+        const SECTIONS: &str = "filament.sections";
         let mut state = State::default();
         let (mut own, mut placement) = (Vec::new(), Placement::default());
         for piece in pieces {
             let i = piece.section;
             let built = self.models[i].build(&mut state, &placement, piece.first, piece.count);
-            own.push((i, built.map_err(|error| refused(&error))?));
+            own.push((i, built.map_err(problem_at(SECTIONS))?));
             // The turn changes half a rise after the last monomer.
             let [turn, next] = self.turns(i);
             let boundary = piece.first as f64 + piece.count as f64 - 0.5;
@@ -224,8 +223,8 @@ impl Strand<'_> {
             ..own[0].1
         };
         let system = System::new(state, bonds);
-        let frequency = largest_frequency(&system).map_err(|error| refused(&error))?;
-        let step = stable_step(&PEFRL, frequency, SHARE).map_err(|error| refused(&error))?;
+        let frequency = largest_frequency(&system).map_err(problem_at(SECTIONS))?;
+        let step = stable_step(&PEFRL, frequency, SHARE).map_err(problem_at(SECTIONS))?;
         Ok(IsolatedStrand {
             monomers,
             system,
@@ -304,13 +303,8 @@ impl IsolatedStrand {
     }
 }
 
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the conversion saturates, and both are positive"
-)]
 fn times(whole: f64, part: f64) -> u64 {
-    (whole / part).ceil() as u64
+    to_steps((whole / part).ceil())
 }
 
 #[cfg(test)]

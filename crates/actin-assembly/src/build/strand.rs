@@ -4,8 +4,9 @@ use super::SceneParts;
 use crate::built_axis::BuiltAxis;
 use crate::lattice::{Lattice, ResolvedSection, resolve};
 use crate::scene::{Clamp, End, Filament, Hinge, Hold, MAX_EXACT_INTEGER, SceneProblem, Section};
+use crate::whole::to_count;
 use crate::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
-use crate::{law, models};
+use crate::{law, models, problem_at};
 use actin_cosserat::{CrossSection, EndShear, RodLayout, StraightRod, Walls};
 use actin_coupling::push_junction_frames;
 use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
@@ -193,17 +194,21 @@ impl<'a> Strand<'a> {
             bonds: 0,
         };
         let frames = monomers.first_frame..monomers.first_frame + count;
-        let tips = |end, held: usize, free: [usize; 2]| {
-            if self.holds[end as usize].is_some() {
-                vec![held]
+        let is_held = self.holds.map(|hold| hold.is_some());
+        let tips = [
+            if is_held[0] {
+                from + 1..from + 2
             } else {
-                free.to_vec()
-            }
-        };
-        let first_tip = tips(End::Start, from + 1, [from, from + 1]);
-        let last_tip = tips(End::End, to - 2, [to - 2, to - 1]);
+                from..from + 2
+            },
+            if is_held[1] {
+                to - 2..to - 1
+            } else {
+                to - 2..to
+            },
+        ];
         let bodies = (from..to, frames);
-        self.push_span(i, resolution, bodies, (first_tip, last_tip), stock);
+        self.push_span(i, resolution, bodies, tips, stock);
         self.bodies.push(Body::Monomers(monomers));
         Ok(())
     }
@@ -364,7 +369,8 @@ impl<'a> Strand<'a> {
         let Range { start, end } = layout.points();
         let resolution = Resolution::Rod { segment_nm: length };
         let bodies = (layout.points(), layout.frames());
-        self.push_span(i, resolution, bodies, (vec![start], vec![end - 1]), stock);
+        let tips = [start..start + 1, end - 1..end];
+        self.push_span(i, resolution, bodies, tips, stock);
     }
 
     fn push_span(
@@ -372,7 +378,7 @@ impl<'a> Strand<'a> {
         i: usize,
         resolution: Resolution,
         (points, frames): (Range<usize>, Range<usize>),
-        (first_tip, last_tip): (Vec<usize>, Vec<usize>),
+        tips: [Range<usize>; 2],
         stock: &mut SceneParts,
     ) {
         stock.sections.push(SectionSpan {
@@ -381,8 +387,7 @@ impl<'a> Strand<'a> {
             to_nm: self.resolved[i].to_nm,
             points,
             frames,
-            first_tip,
-            last_tip,
+            tips,
         });
     }
 
@@ -443,7 +448,7 @@ impl<'a> Strand<'a> {
             &distances,
             &self.cross_section,
         )
-        .map_err(|error| junction_problem(&error))?;
+        .map_err(problem_at("filament.junction"))?;
         let side = if monomers_first { -0.5 } else { 0.5 };
         stock
             .frames
@@ -454,10 +459,6 @@ impl<'a> Strand<'a> {
         self.junction_frames.push(frames);
         Ok(())
     }
-}
-
-pub(super) fn junction_problem(error: &actin_coupling::JunctionError) -> SceneProblem {
-    SceneProblem::new("filament.junction", "", error.to_string())
 }
 
 /// Number of segments of each section; 0 for monomers.
@@ -471,11 +472,6 @@ fn segments(filament: &Filament, resolved: &[ResolvedSection]) -> Result<Vec<usi
 }
 
 /// Number of segments of rod section `i`, as `written` in the scene or by default.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "checked to lie between 1 and 2^53"
-)]
 fn segments_of_rod(
     i: usize,
     written: Option<usize>,
@@ -488,7 +484,7 @@ fn segments_of_rod(
         ("to_nm", format!("{:?}", place.to_nm), count)
     };
     if count <= MAX_EXACT_INTEGER {
-        return Ok(count as usize);
+        return Ok(to_count(count));
     }
     Err(SceneProblem::new(
         format!("filament.sections[{i}].{key}"),

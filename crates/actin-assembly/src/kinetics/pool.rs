@@ -1,6 +1,7 @@
 //! Linkers that bind to any site of any filament.
 
 use super::{HandEvent, LinkerEventKind, Switching};
+use crate::whole::{to_count, to_index};
 use actin_mechanics::{Interaction, State, Vector3};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -142,12 +143,8 @@ impl Grid {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "saturates far outside of any filament"
-)]
 fn cell_of(position: &Vector3, cell: f64) -> [i64; 3] {
-    position.map(|x| (x / cell).floor() as i64).into()
+    position.map(|x| to_index((x / cell).floor())).into()
 }
 
 impl Switching {
@@ -179,16 +176,11 @@ impl Switching {
     }
 
     /// Attachment of one hand to a random site. Attempts at occupied sites fail.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a share of the number of sites"
-    )]
     fn attaching(&self, step: u64, pool: &Pool) -> Option<(Option<HandEvent>, f64)> {
         let roams = self.rates.roams?;
         let [place, side] = self.uniform(PURPOSE, step);
         let sites = self.table.sites.len();
-        let site = ((place * sites as f64) as usize).min(sites - 1);
+        let site = to_count(place * sites as f64).min(sites - 1);
         let event = (!pool.is_occupied(self, site)).then_some(HandEvent {
             what: LinkerEventKind::Attached,
             hand: usize::from(side >= 0.5),

@@ -23,8 +23,8 @@ impl Assembly {
             && self.scene.thermal().is_some()
             && self.counts().bonds == 0;
         let is_heated = |rod: &&Rod| {
-            let law = self.law_of(rod);
-            matches!(law, Some(RodLaw::Homogenised | RodLaw::HomogenisedAt298K))
+            let law = self.rod_model_of(rod.section).law;
+            matches!(law, RodLaw::Homogenised | RodLaw::HomogenisedAt298K)
         };
         let rods = self.rods.iter().filter(|_| is_stressed).filter(is_heated);
         let lengths = rods.flat_map(|rod| rod.layout.segment_lengths());
@@ -79,7 +79,7 @@ impl Assembly {
             1 => 0.5,
             _ => 2.0,
         };
-        let length = self.scene.filament_at(filament)?.length_nm();
+        let length = self.written(filament).length_nm();
         let cubes: f64 = self.segments_of(filament).map(|h| h.powi(3)).sum();
         Some(factor * cubes / length.powi(3))
     }

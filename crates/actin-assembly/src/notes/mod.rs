@@ -10,7 +10,7 @@ mod mesh;
 mod softened;
 
 use crate::scene::{
-    AdaptiveResolution, Anchors, Filament, Monomers, Observable, RodLaw, Scene, Task, unset_loads,
+    AdaptiveResolution, Anchors, Filament, Monomers, Observable, Scene, Task, unset_loads,
 };
 use crate::{Assembly, InterfaceSampling, Rod, SectionChoice};
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
@@ -101,30 +101,30 @@ impl Assembly {
             notes.push(note.to_owned().into());
             notes.extend(self.note_on_short_segments(following).map(Note::from));
         }
-        let few = self.scene.filaments().flat_map(few_bonds_of_sections);
-        notes.extend(Note::warnings(codes::FEW_BONDS, few));
-        notes.extend(Note::warnings(
-            codes::PATH_LOADS,
-            loads_along_path(&self.scene),
-        ));
-        notes.extend(Note::warnings(codes::SHORT_ROD, self.short_rods()));
-        notes.extend(Note::warnings(codes::LONG_SEGMENTS, self.long_segments()));
-        notes.extend(Note::warnings(
-            codes::PARTLY_RESOLVED,
-            self.partly_resolved(),
-        ));
-        notes.extend(Note::warnings(codes::OVERLAP, self.notes_on_repulsion()));
-        notes.extend(Note::warnings(
-            codes::ROD_LAW,
-            self.short_segments_in_water(),
-        ));
         let bath_k = self.scene.thermal().map(|thermal| thermal.temperature_k);
-        for filament in self.scene.filaments() {
-            let of_laws = laws::notes(filament, bath_k);
-            notes.extend(Note::warnings(codes::ROD_LAW, of_laws));
+        let few_bonds = self.scene.filaments().flat_map(few_bonds_of_sections);
+        let laws = self.scene.filaments();
+        let laws = laws.flat_map(|filament| laws::notes(filament, bath_k));
+        let warnings = [
+            (codes::FEW_BONDS, few_bonds.collect()),
+            (
+                codes::PATH_LOADS,
+                Vec::from_iter(loads_along_path(&self.scene)),
+            ),
+            (codes::SHORT_ROD, Vec::from_iter(self.short_rods())),
+            (codes::LONG_SEGMENTS, self.long_segments()),
+            (codes::PARTLY_RESOLVED, self.partly_resolved()),
+            (codes::OVERLAP, self.notes_on_repulsion()),
+            (
+                codes::ROD_LAW,
+                Vec::from_iter(self.short_segments_in_water()),
+            ),
+            (codes::ROD_LAW, laws.collect()),
+            (codes::PERSISTENCE_LENGTH, self.untold_lengths()),
+        ];
+        for (code, messages) in warnings {
+            notes.extend(Note::warnings(code, messages));
         }
-        let untold = self.untold_lengths();
-        notes.extend(Note::warnings(codes::PERSISTENCE_LENGTH, untold));
         notes.extend(self.sampled.iter().map(InterfaceSampling::note));
         let mut unique = Vec::new();
         for note in notes {
@@ -152,16 +152,8 @@ impl Assembly {
         untold.collect()
     }
 
-    fn law_of(&self, rod: &Rod) -> Option<RodLaw> {
-        let filament = self.filament_of_section(rod.section);
-        let written = self.scene.filament_at(filament)?;
-        let i = rod.section - self.filaments[filament].sections.start;
-        Some(written.sections[i].rod_model(&written.rod).law)
-    }
-
     fn short_rods(&self) -> Option<String> {
-        let under_law =
-            |rod: &&Rod| (self.law_of(rod)).is_some_and(|law| RodLaw::is_homogenised(&law));
+        let under_law = |rod: &&Rod| self.rod_model_of(rod.section).law.is_homogenised();
         let lengths = self.rods.iter().filter(under_law);
         let shortest = lengths
             .map(|rod| rod.layout.length())

@@ -31,7 +31,7 @@ impl Assembly {
 
     /// Section of softened monomers with the fewest unaltered monomers before a rod, and their number.
     fn nearest_to_a_rod(&self, filament: usize) -> Option<(&SectionSpan, usize)> {
-        let written = self.scene.filament_at(filament)?;
+        let written = self.written(filament);
         let spans = self.sections_of(filament);
         let sections = written.sections.iter().zip(spans);
         let sections: Vec<_> = sections

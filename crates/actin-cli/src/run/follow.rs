@@ -190,7 +190,8 @@ impl Chain<'_> {
         let mut kept = checkpoints(self.arguments, &plan, &directory)?;
         saved
             .recorded
-            .last()
+            .last
+            .as_ref()
             .into_iter()
             .for_each(|r| kept.record(r));
         kept.checkpoint(&saved.position, &saved.recorded, saved.wall_s);

@@ -2,19 +2,15 @@
 //!
 //! Sweeps over keys and output to directories are in `actin-sweep`.
 
-mod error;
 mod pool;
-mod sink;
 #[cfg(test)]
 mod tests;
 
-pub use error::EnsembleError;
-
+use crate::run::InterruptibleTrajectory;
 use crate::scene::RandomPart;
-use crate::{Outcome, Plan, Scene, Status, Trajectory};
-use pool::ReplicaPool;
-use std::fmt;
+use crate::{Outcome, Plan, Record, RunError, Scene, Status, Trajectory};
 use std::num::NonZeroUsize;
+use thiserror::Error;
 
 /// Replicas of a scene with different seeds.
 ///
@@ -45,7 +41,7 @@ use std::num::NonZeroUsize;
 /// assert_ne!(tips_nm[0], tips_nm[1]);
 /// # Ok::<(), actin_sim::SimError>(())
 /// ```
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Ensemble<'a> {
     scene: &'a Scene,
     seeds: Vec<u64>,
@@ -66,6 +62,28 @@ pub struct Replica<'a> {
     pub sink: Trajectory,
     /// Outcome of the run.
     pub outcome: Outcome,
+}
+
+/// Error of an ensemble.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EnsembleError {
+    /// All replicas would be identical.
+    #[error(
+        "the scene has nothing that depends on a seed (bonds with anchors: Independent, thermal noise, \
+         imperfections): all replicas would be identical"
+    )]
+    NothingDrawn,
+    /// A replica could not be built, or failed.
+    #[error("replica {index} (seed {seed}): {error}")]
+    Replica {
+        /// Index of the replica.
+        index: usize,
+        /// Seed of the replica.
+        seed: u64,
+        /// Cause of the failure.
+        error: RunError,
+    },
 }
 
 impl<'a> Ensemble<'a> {
@@ -134,12 +152,12 @@ impl<'a> Ensemble<'a> {
         &self,
         observe: impl Fn(Replica<'_>) -> T + Sync,
     ) -> Result<Vec<T>, EnsembleError> {
-        let make = |index: usize, stop: &sink::ReplicaStop<'_>| {
+        let replica = |index: usize, is_stopped: &dyn Fn() -> bool| {
             let seed = self.seeds[index];
             let assembly = crate::build(&self.reseeded(seed).0)?;
             let plan = Plan::new(&assembly)?;
-            let mut sink = Trajectory::default();
-            let outcome = plan.run_into(&mut stop.over(&mut sink))?;
+            let mut sink = InterruptibleTrajectory::new(|_: &[Record]| is_stopped());
+            let outcome = plan.run_into(&mut sink)?;
             if outcome.status == Status::Interrupted {
                 return Ok(None);
             }
@@ -147,11 +165,17 @@ impl<'a> Ensemble<'a> {
                 index,
                 seed,
                 plan: &plan,
-                sink,
+                sink: sink.trajectory,
                 outcome,
             })))
         };
-        ReplicaPool::new(self, &make).work_all()
+        let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        let threads = self.threads.map_or_else(cores, NonZeroUsize::get);
+        let replicas = self.seeds.len();
+        pool::on_threads(threads.min(replicas), replicas, replica).map_err(|(index, error)| {
+            let seed = self.seeds[index];
+            EnsembleError::Replica { index, seed, error }
+        })
     }
 
     /// Returns the scene with a seed, and the number of its random parts with that seed.
@@ -160,16 +184,5 @@ impl<'a> Ensemble<'a> {
         let drawn = self.drawn.iter();
         let count = drawn.map(|&what| scene.reseed(what, seed)).sum();
         (scene, count)
-    }
-}
-
-impl fmt::Debug for Ensemble<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Ensemble")
-            .field("scene", &self.scene)
-            .field("seeds", &self.seeds)
-            .field("drawn", &self.drawn)
-            .field("threads", &self.threads)
-            .finish_non_exhaustive()
     }
 }

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::scene::SceneProblem;
-use crate::{Record, SimError};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn heated(duration_ns: f64, more: &str) -> Scene {
@@ -76,8 +75,7 @@ fn replicas_that_would_be_the_same_are_refused() {
 
 /// The first replica fails last; replicas before a failed one are not stopped.
 #[test]
-fn the_first_replica_that_fails_is_named() {
-    let scene = heated(0.1, "");
+fn the_first_call_that_fails_is_named() {
     let (stopped, ended) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let problem = || SceneProblem::new("task", "", "fails");
     let wait_for = |number: &AtomicUsize| {
@@ -85,26 +83,24 @@ fn the_first_replica_that_fails_is_named() {
             std::thread::yield_now();
         }
     };
-    let make = |index: usize, stop: &sink::ReplicaStop<'_>| match index {
+    let make = |index: usize, is_stopped: &dyn Fn() -> bool| match index {
         0 => {
             wait_for(&stopped);
-            assert!(!stop.is_set());
+            assert!(!is_stopped());
             ended.fetch_add(1, Ordering::Relaxed);
             Ok(Some(()))
         }
         1 => {
             wait_for(&ended);
-            Err(problem().into())
+            Err(problem())
         }
         _ => {
             stopped.fetch_add(1, Ordering::Relaxed);
-            Err(problem().into())
+            Err(problem())
         }
     };
-    let ensemble = Ensemble::new(&scene, 9).unwrap().on_threads(threads(3));
-    let failed = ReplicaPool::new(&ensemble, &make).work_all();
-    let error = SimError::from(failed.unwrap_err()).to_string();
-    assert_eq!(error, "replica 1 (seed 2): task: fails");
+    let (index, error) = pool::on_threads(3, 9, make).unwrap_err();
+    assert_eq!((index, error), (1, problem()));
 }
 
 #[test]

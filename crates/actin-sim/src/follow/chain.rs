@@ -9,6 +9,7 @@ use crate::{
     RunError, RunPosition, SavedRun, Sink, Status, Trajectory,
 };
 use actin_assembly::Cells;
+use actin_assembly::whole::to_steps;
 use actin_integrate::{Checkpoint, Moment, Snapshot};
 use actin_mechanics::{Split, State};
 use serde::{Deserialize, Serialize};
@@ -258,7 +259,6 @@ impl Follower {
         let here = &position.checkpoint.here;
         let kinds = [&left.beginning.is_monomers, &is_monomers];
         let (to_monomers, to_rod) = (self.switched(kinds, true), self.switched(kinds, false));
-        let spans_nm = [to_monomers.as_slice(), &to_rod].concat();
         let mut stretch = self.again(StretchStart {
             index: left.beginning.index + 1,
             free_from: self.free_from(left, &is_monomers, here.step),
@@ -268,18 +268,15 @@ impl Follower {
         let transfer = Transfer {
             from: &left.assembly,
             to: &stretch.assembly,
-            spans_nm: &spans_nm,
+            to_monomers,
+            to_rod,
             step: here.step,
             time_ns: here.motion.time,
         };
         let old = left.assembly.system.state().in_motion(here.motion.clone());
         let (state, switch) = transfer.state(&old, &self.scene.task)?;
         stretch.beginning.switches_pn_nm += switch.energy_pn_nm;
-        stretch.beginning.switch = Some(Switch {
-            to_monomers,
-            to_rod,
-            ..switch
-        });
+        stretch.beginning.switch = Some(switch);
         let saved = begun(&stretch.assembly, state, (saved, position));
         Ok(NextStretch { stretch, saved })
     }
@@ -289,7 +286,7 @@ impl Follower {
         let motion = self.scene.task.motion();
         let length_ns = motion.and_then(|motion| motion.time_step_ns);
         let length_ns = length_ns.unwrap_or(self.least_ns);
-        let rest = whole_steps(self.least_ns / length_ns);
+        let rest = to_steps((self.least_ns / length_ns).ceil());
         let before = &left.beginning;
         let cells = before.free_from.iter().zip(&before.is_monomers);
         cells
@@ -326,33 +323,29 @@ impl Follower {
     /// As [`advance`](Self::advance).
     pub fn run(&self) -> Result<AdaptiveMotion, RunError> {
         let mut stretches = Vec::new();
-        let (mut stretch, mut saved) = (self.begin()?, None);
+        let (mut stretch, mut saved) = (self.begin()?, None::<SavedRun>);
         loop {
-            let mut trajectory = Trajectory::default();
-            trajectory.records.extend(first_record(saved.as_ref()));
+            let first = saved.iter().filter_map(|saved| saved.recorded.last.clone());
+            let mut trajectory = Trajectory {
+                records: first.collect(),
+            };
             let plan = Plan::new(&stretch.assembly)?;
-            let left = self.advance((&stretch, &plan), saved.take(), &mut trajectory)?;
-            let (outcome, next) = match left {
+            let end = self.advance((&stretch, &plan), saved, &mut trajectory)?;
+            let (outcome, next) = match end {
                 StretchEnd::Over(outcome) => (outcome, None),
                 StretchEnd::Switched(outcome, next) => (outcome, Some(*next)),
             };
-            let ran = |stretch| CompletedStretch {
+            stretches.push(CompletedStretch {
                 stretch,
                 trajectory,
                 outcome,
-            };
+            });
             let Some(next) = next else {
-                stretches.push(ran(stretch));
                 return Ok(AdaptiveMotion { stretches });
             };
-            stretches.push(ran(stretch));
             (stretch, saved) = (next.stretch, Some(next.saved));
         }
     }
-}
-
-fn first_record(saved: Option<&SavedRun>) -> Option<Record> {
-    saved.and_then(|saved| saved.recorded.last.clone())
 }
 
 /// Returns the scene with an interval of records and a time step for both rods and monomers.
@@ -384,15 +377,6 @@ fn resolved(scene: &Scene, cells: &Cells) -> Result<Scene, SceneProblem> {
     let (_, mut resolved) = finest.expect("two were compared");
     resolved.filament.sections = scene.filament.sections.clone();
     Ok(resolved)
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a positive time over a step, at most the number of steps of a run"
-)]
-fn whole_steps(steps: f64) -> u64 {
-    steps.ceil() as u64
 }
 
 fn begun(

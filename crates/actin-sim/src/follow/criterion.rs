@@ -135,15 +135,15 @@ impl Cell<'_> {
     }
 }
 
-/// Resolution that a criterion requests for a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Resolution that a criterion requests for a cell. Of several requests the largest prevails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ResolutionRequest {
-    /// Monomers.
-    Monomers,
     /// Rod, unless another criterion requests monomers or the present resolution.
     Rod,
     /// Present resolution.
     Stay,
+    /// Monomers.
+    Monomers,
 }
 
 /// Criterion for the resolution of cells.
@@ -202,13 +202,5 @@ fn distance_nm(cell: &Cell<'_>, linker: usize) -> f64 {
 /// Combines several criteria: monomers if any requests them, a rod if all request it.
 pub(super) fn wish_of(criteria: &[Box<dyn Criterion>], cell: &Cell<'_>) -> ResolutionRequest {
     let wishes = criteria.iter().map(|criterion| criterion.request(cell));
-    wishes.fold(ResolutionRequest::Rod, |so_far, wish| {
-        match (so_far, wish) {
-            (ResolutionRequest::Monomers, _) | (_, ResolutionRequest::Monomers) => {
-                ResolutionRequest::Monomers
-            }
-            (ResolutionRequest::Rod, wish) => wish,
-            (ResolutionRequest::Stay, _) => ResolutionRequest::Stay,
-        }
-    })
+    wishes.max().unwrap_or(ResolutionRequest::Rod)
 }

@@ -1,6 +1,6 @@
 //! Positions, axes and velocities of the cross-sections of a filament, for every resolution.
 
-use crate::shape::axis::Axis;
+use crate::shape::axis::{Axis, interpolated};
 use crate::shape::from_rest;
 use crate::{Assembly, BodyKind};
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
@@ -31,16 +31,8 @@ pub(super) struct Field {
     velocities: Vec<Known>,
     /// Angular velocities of segments and monomers, by arc length.
     angular_velocities: Vec<Known>,
-    monomers: Vec<Monomer>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Monomer {
-    s_nm: f64,
-    place: Vector3,
-    axes: UnitQuaternion,
-    velocity: Vector3,
-    angular_velocity: Vector3,
+    /// Cross-sections at monomers, by arc length.
+    monomers: Vec<(f64, CrossSection)>,
 }
 
 impl Field {
@@ -53,8 +45,8 @@ impl Field {
             .filter(|&i| assembly.frames[i].kind == BodyKind::Segment)
             .map(|i| (assembly.frames[i].s_nm, angular_velocity(state, i)));
         let of_monomers = monomers.iter();
-        let velocities = nodes.chain(of_monomers.clone().map(|m| (m.s_nm, m.velocity)));
-        let turns = segments.chain(of_monomers.map(|m| (m.s_nm, m.angular_velocity)));
+        let velocities = nodes.chain(of_monomers.clone().map(|m| (m.0, m.1.velocity)));
+        let turns = segments.chain(of_monomers.map(|m| (m.0, m.1.angular_velocity)));
         Self {
             axis: Axis::new(assembly, state),
             velocities: in_order(velocities.collect()),
@@ -69,8 +61,8 @@ impl Field {
         CrossSection {
             place,
             axes,
-            velocity: between(&self.velocities, s_nm),
-            angular_velocity: between(&self.angular_velocities, s_nm),
+            velocity: interpolated(&self.velocities, s_nm),
+            angular_velocity: interpolated(&self.angular_velocities, s_nm),
         }
     }
 
@@ -80,14 +72,14 @@ impl Field {
     /// # Panics
     /// If there are no monomers.
     pub(super) fn of_monomers(&self, s_nm: f64) -> CrossSection {
-        let after = self.monomers.partition_point(|m| m.s_nm < s_nm);
+        let after = self.monomers.partition_point(|m| m.0 < s_nm);
         let count = (2 * MONOMERS_BESIDE).min(self.monomers.len());
         let first = after.saturating_sub(MONOMERS_BESIDE);
         let first = first.min(self.monomers.len() - count);
         let near = &self.monomers[first..first + count];
-        let reference = near[count / 2].axes;
-        let fit = |degree, of: &dyn Fn(&Monomer) -> Vector3| {
-            let known: Vec<Known> = near.iter().map(|m| (m.s_nm - s_nm, of(m))).collect();
+        let reference = near[count / 2].1.axes;
+        let fit = |degree, of: &dyn Fn(&CrossSection) -> Vector3| {
+            let known: Vec<Known> = near.iter().map(|m| (m.0 - s_nm, of(&m.1))).collect();
             at_zero(&known, degree)
         };
         let turn = fit(1, &|m| rotation::log(reference.inverse() * m.axes));
@@ -105,18 +97,18 @@ pub(super) fn angular_velocity(state: &State, i: usize) -> Vector3 {
     state.frames.orientation.get(i) * state.frames.angular_velocity(i, momentum)
 }
 
-fn monomers(assembly: &Assembly, state: &State) -> Vec<Monomer> {
+fn monomers(assembly: &Assembly, state: &State) -> Vec<(f64, CrossSection)> {
     let of = |i: usize, frame: usize| {
         let place = assembly.centre_line_nm(state, i);
         let turn = angular_velocity(state, frame);
         let arm = place - state.points.position.get(i);
-        Monomer {
-            s_nm: assembly.points[i].s_nm,
+        let section = CrossSection {
             place,
             axes: from_rest(assembly, state, frame),
             velocity: state.points.velocity.get(i) + turn.cross(&arm),
             angular_velocity: turn,
-        }
+        };
+        (assembly.points[i].s_nm, section)
     };
     let points = assembly.points.iter().enumerate();
     points
@@ -128,16 +120,6 @@ fn monomers(assembly: &Assembly, state: &State) -> Vec<Monomer> {
 fn in_order(mut known: Vec<Known>) -> Vec<Known> {
     known.sort_by(|a, b| a.0.total_cmp(&b.0));
     known
-}
-
-/// Linear interpolation at an arc length, constant beyond the samples.
-fn between(known: &[Known], s_nm: f64) -> Vector3 {
-    let after = known.partition_point(|k| k.0 < s_nm);
-    if after == 0 || after == known.len() {
-        return known[after.min(known.len() - 1)].1;
-    }
-    let ((s_a, a), (s_b, b)) = (known[after - 1], known[after]);
-    a.lerp(&b, (s_nm - s_a) / (s_b - s_a))
 }
 
 /// Value at zero of the least-squares polynomial.

@@ -4,6 +4,7 @@ use super::field::{CrossSection, Field};
 use super::momentum::{Bodies, Momentum};
 use crate::scene::{SceneProblem, Task};
 use crate::{Assembly, At, BodyKind};
+use actin_assembly::whole::to_index;
 use actin_mechanics::{State, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -33,15 +34,16 @@ pub struct Switch {
 pub(super) struct Transfer<'a> {
     pub(super) from: &'a Assembly,
     pub(super) to: &'a Assembly,
-    /// Arc length intervals of the switched cells (nm).
-    pub(super) spans_nm: &'a [[f64; 2]],
+    /// Arc length intervals of the cells that become monomers (nm).
+    pub(super) to_monomers: Vec<[f64; 2]>,
+    /// Arc length intervals of the cells that become a rod (nm).
+    pub(super) to_rod: Vec<[f64; 2]>,
     pub(super) step: u64,
     pub(super) time_ns: f64,
 }
 
 impl Transfer<'_> {
-    /// Returns the state of the new bodies that continues `old`, and the switch with empty lists of
-    /// cells.
+    /// Returns the state of the new bodies that continues `old`, and the switch.
     ///
     /// # Errors
     /// If the new bodies do not settle.
@@ -77,8 +79,8 @@ impl Transfer<'_> {
         Switch {
             step: self.step,
             time_ns: self.time_ns,
-            to_monomers: Vec::new(),
-            to_rod: Vec::new(),
+            to_monomers: self.to_monomers.clone(),
+            to_rod: self.to_rod.clone(),
             energy_pn_nm: energy(self.to, new) - energy(self.from, old),
             momentum_change: (after.linear - before.linear).norm(),
             angular_momentum_change: (after.angular - before.angular).norm(),
@@ -89,7 +91,7 @@ impl Transfer<'_> {
     /// beyond the ends of the filament.
     pub(super) fn is_switched(&self, s_nm: f64) -> bool {
         let inside = s_nm.clamp(0.0, self.to.length_nm());
-        let mut spans = self.spans_nm.iter();
+        let mut spans = self.to_monomers.iter().chain(&self.to_rod);
         spans.any(|[from, to]| *from - SAME_PLACE_NM <= inside && inside <= *to + SAME_PLACE_NM)
     }
 
@@ -236,14 +238,10 @@ impl BodyPositions {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "arc lengths of filaments that fit into memory are below 2^53 units"
-)]
 fn places(bodies: impl Iterator<Item = (BodyKind, f64)>) -> BTreeMap<Key, usize> {
     let mut places = BTreeMap::new();
     for (i, (kind, s_nm)) in bodies.enumerate() {
-        let unit = (s_nm / SAME_PLACE_NM).round() as i64;
+        let unit = to_index((s_nm / SAME_PLACE_NM).round());
         let others = places
             .range((kind as u8, unit, 0)..=(kind as u8, unit, usize::MAX))
             .count();

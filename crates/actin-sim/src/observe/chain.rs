@@ -1,38 +1,31 @@
 //! Length, size and twist of the centre line.
 
-use super::{Observe, StoredPositions, View};
+use super::View;
 use crate::shape::Ribbon;
 use actin_mechanics::Vector3;
 
-/// Length, radius of gyration, largest distance from the axis as built, and twist of the centre
-/// line.
-#[derive(Debug)]
-pub(super) struct Contour {
-    pub(super) filament: usize,
+pub(super) fn columns(filament: usize) -> Vec<String> {
+    [
+        "length_nm",
+        "gyration_radius_nm",
+        "largest_distance_nm",
+        "twist_turns",
+    ]
+    .map(|what| format!("contour[{filament}]_{what}"))
+    .into()
 }
 
-impl Observe for Contour {
-    fn columns(&self) -> Vec<String> {
-        [
-            "length_nm",
-            "gyration_radius_nm",
-            "largest_distance_nm",
-            "twist_turns",
-        ]
-        .map(|what| format!("contour[{}]_{what}", self.filament))
-        .into()
-    }
-
-    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
-        let ribbon = view.ribbon(self.filament);
-        let edges = ribbon.points_nm.windows(2);
-        row.extend([
-            edges.map(|ends| (ends[1] - ends[0]).norm()).sum(),
-            gyration_radius(ribbon),
-            ribbon.largest_distance_nm(),
-            ribbon.twist(),
-        ]);
-    }
+/// Length, radius of gyration, largest distance from the axis as built, and twist of the centre
+/// line.
+pub(super) fn values(view: &View<'_>, filament: usize) -> Vec<f64> {
+    let ribbon = view.ribbon(filament);
+    let edges = ribbon.points_nm.windows(2);
+    vec![
+        edges.map(|ends| (ends[1] - ends[0]).norm()).sum(),
+        gyration_radius(ribbon),
+        ribbon.largest_distance_nm(),
+        ribbon.twist(),
+    ]
 }
 
 fn edges(ribbon: &Ribbon) -> impl Iterator<Item = (f64, Vector3, Vector3)> + '_ {

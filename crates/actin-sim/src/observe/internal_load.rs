@@ -1,6 +1,6 @@
 //! Internal forces and moments at an arc length, and their extreme values.
 
-use super::{Observe, StoredPositions, View};
+use super::View;
 use crate::shape::{SectionLoad, SectionLoads};
 
 /// Columns at one arc length.
@@ -55,46 +55,38 @@ const EXTREMES: [Extreme; 5] = [
     },
 ];
 
-/// Internal load at an arc length (nm), or the extreme values of the filament.
-#[derive(Debug)]
-pub(super) struct InternalLoad {
-    pub(super) filament: usize,
-    pub(super) at_nm: Option<f64>,
+pub(super) fn columns(filament: usize, at_nm: Option<f64>) -> Vec<String> {
+    let name = format!("internal_load[{filament}]");
+    match at_nm {
+        Some(at) => LOCAL
+            .map(|column| format!("{name}_at_{at}nm_{column}"))
+            .into(),
+        None => EXTREMES
+            .iter()
+            .flat_map(|one| [one.unit, "at_nm"].map(|end| format!("{name}_{}_{end}", one.name)))
+            .collect(),
+    }
 }
 
-impl Observe for InternalLoad {
-    fn columns(&self) -> Vec<String> {
-        let name = format!("internal_load[{}]", self.filament);
-        match self.at_nm {
-            Some(at) => LOCAL
-                .map(|column| format!("{name}_at_{at}nm_{column}"))
-                .into(),
-            None => EXTREMES
-                .iter()
-                .flat_map(|one| [one.unit, "at_nm"].map(|end| format!("{name}_{}_{end}", one.name)))
-                .collect(),
-        }
+/// Internal load at an arc length (nm), or the extreme values of the filament.
+pub(super) fn values(view: &View<'_>, filament: usize, at_nm: Option<f64>) -> Vec<f64> {
+    let loads = SectionLoads::new(view.assembly, filament, view.state);
+    if let Some(at) = at_nm {
+        let SectionLoad {
+            force_pn,
+            couple_pn_nm,
+        } = loads.within(at);
+        return force_pn.iter().chain(&couple_pn_nm).copied().collect();
     }
-
-    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
-        let loads = SectionLoads::new(view.assembly, self.filament, view.state);
-        if let Some(at) = self.at_nm {
-            let SectionLoad {
-                force_pn,
-                couple_pn_nm,
-            } = loads.within(at);
-            row.extend(force_pn.iter().chain(couple_pn_nm.iter()));
-            return;
-        }
-        let places = view.ribbon(self.filament).s_nm.iter();
-        let local: Vec<(f64, SectionLoad)> = places.map(|&s| (s, loads.within(s))).collect();
-        for Extreme { value, rank, .. } in &EXTREMES {
-            let rank = |one: &(f64, SectionLoad)| rank(value(&one.1));
-            let extreme = local.iter().max_by(|a, b| rank(a).total_cmp(&rank(b)));
-            let (s_nm, load) = extreme.copied().unwrap_or_default();
-            row.extend([value(&load), s_nm]);
-        }
-    }
+    let places = view.ribbon(filament).s_nm.iter();
+    let local: Vec<(f64, SectionLoad)> = places.map(|&s| (s, loads.within(s))).collect();
+    let extremes = EXTREMES.iter().flat_map(|Extreme { value, rank, .. }| {
+        let rank = |one: &(f64, SectionLoad)| rank(value(&one.1));
+        let extreme = local.iter().max_by(|a, b| rank(a).total_cmp(&rank(b)));
+        let (s_nm, load) = extreme.copied().unwrap_or_default();
+        [value(&load), s_nm]
+    });
+    extremes.collect()
 }
 
 #[cfg(test)]

@@ -1,29 +1,22 @@
-//! Forces and lengths of linkers.
+//! Force of a linker on the filament at its site, tension, and distance of its ends.
 
-use super::{Observe, StoredPositions, View, vector};
+use super::{View, vector};
 
-/// Force of a linker on the filament at its site, tension, and distance of its ends. The force is
-/// zero if unbound.
-#[derive(Debug)]
-pub(super) struct Linker {
-    pub(super) linker: usize,
+pub(super) fn columns(linker: usize) -> Vec<String> {
+    let name = format!("linker[{linker}]");
+    let mut columns = vector(&format!("{name}_force"), "_pn");
+    columns.extend([format!("{name}_tension_pn"), format!("{name}_length_nm")]);
+    columns
 }
 
-impl Observe for Linker {
-    fn columns(&self) -> Vec<String> {
-        let name = format!("linker[{}]", self.linker);
-        let mut columns = vector(&format!("{name}_force"), "_pn");
-        columns.extend([format!("{name}_tension_pn"), format!("{name}_length_nm")]);
-        columns
-    }
-
-    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
-        let (linker, is_bound) = view.assembly.linker_in(self.linker, view.state);
-        let written = &view.assembly.scene.linkers[self.linker];
-        let holds = f64::from(u8::from(is_bound));
-        let extension = linker.extension(view.state);
-        row.extend((holds * linker.force(view.state)).iter());
-        row.push(holds * written.stiffness_pn_per_nm * extension);
-        row.push(written.rest_length_nm + extension);
-    }
+/// The force is zero if the linker is unbound.
+pub(super) fn values(view: &View<'_>, i: usize) -> Vec<f64> {
+    let (linker, is_bound) = view.assembly.linker_in(i, view.state);
+    let written = &view.assembly.scene.linkers[i];
+    let holds = f64::from(u8::from(is_bound));
+    let extension = linker.extension(view.state);
+    let force = holds * linker.force(view.state);
+    let tension = holds * written.stiffness_pn_per_nm * extension;
+    let length = written.rest_length_nm + extension;
+    vec![force.x, force.y, force.z, tension, length]
 }

@@ -1,67 +1,40 @@
 //! Curvature, twist and strain at an arc length, from the centre line and its frames.
 
-use super::{Observe, StoredPositions, View, vector};
+use super::vector;
 use crate::shape::Ribbon;
+use crate::shape::axis::interpolated;
 use actin_mechanics::Vector3;
 
+pub(super) fn curvature_columns(filament: usize, at_nm: f64) -> Vec<String> {
+    let name = name("curvature", filament, at_nm);
+    ["_x", "_y", ""]
+        .map(|axis| format!("{name}{axis}_rad_per_nm"))
+        .into()
+}
+
 /// Curvature about the axes of the cross-section, and its magnitude.
-#[derive(Debug)]
-pub(super) struct Curvature {
-    pub(super) filament: usize,
-    pub(super) at_nm: f64,
+pub(super) fn curvature(ribbon: &Ribbon, at_nm: f64) -> Vec<f64> {
+    let kappa = between(&ribbon.s_nm, ribbon.curvatures(), at_nm);
+    vec![kappa.x, kappa.y, kappa.x.hypot(kappa.y)]
+}
+
+pub(super) fn twist_columns(filament: usize, at_nm: f64) -> Vec<String> {
+    vec![format!("{}_rad_per_nm", name("twist", filament, at_nm))]
 }
 
 /// Twist beyond the twist of the helix.
-#[derive(Debug)]
-pub(super) struct Twist {
-    pub(super) filament: usize,
-    pub(super) at_nm: f64,
+pub(super) fn twist(ribbon: &Ribbon, at_nm: f64) -> f64 {
+    between(&ribbon.s_nm, ribbon.curvatures(), at_nm).z
+}
+
+pub(super) fn strain_columns(filament: usize, at_nm: f64) -> Vec<String> {
+    vector(&name("strain", filament, at_nm), "")
 }
 
 /// Shear and stretch of the centre line along the axes of the cross-section.
-#[derive(Debug)]
-pub(super) struct Strain {
-    pub(super) filament: usize,
-    pub(super) at_nm: f64,
-}
-
-impl Observe for Curvature {
-    fn columns(&self) -> Vec<String> {
-        let name = name("curvature", self.filament, self.at_nm);
-        ["_x", "_y", ""]
-            .map(|axis| format!("{name}{axis}_rad_per_nm"))
-            .into()
-    }
-
-    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
-        let ribbon = view.ribbon(self.filament);
-        let kappa = between(&ribbon.s_nm, &ribbon.curvatures(), self.at_nm);
-        row.extend([kappa.x, kappa.y, kappa.x.hypot(kappa.y)]);
-    }
-}
-
-impl Observe for Twist {
-    fn columns(&self) -> Vec<String> {
-        let name = name("twist", self.filament, self.at_nm);
-        vec![format!("{name}_rad_per_nm")]
-    }
-
-    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
-        let ribbon = view.ribbon(self.filament);
-        row.push(between(&ribbon.s_nm, &ribbon.curvatures(), self.at_nm).z);
-    }
-}
-
-impl Observe for Strain {
-    fn columns(&self) -> Vec<String> {
-        vector(&name("strain", self.filament, self.at_nm), "")
-    }
-
-    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
-        let ribbon = view.ribbon(self.filament);
-        let strain = between(&ribbon.frame_s_nm, &strains(ribbon), self.at_nm);
-        row.extend(strain.iter());
-    }
+pub(super) fn strain(ribbon: &Ribbon, at_nm: f64) -> Vec<f64> {
+    let strain = between(&ribbon.frame_s_nm, strains(ribbon), at_nm);
+    strain.as_slice().to_vec()
 }
 
 fn name(what: &str, filament: usize, at_nm: f64) -> String {
@@ -80,14 +53,9 @@ fn strains(ribbon: &Ribbon) -> Vec<Vector3> {
         .collect()
 }
 
-fn between(places: &[f64], values: &[Vector3], at: f64) -> Vector3 {
-    let last = places.len() - 1;
-    let above = places.partition_point(|&place| place < at);
-    if above == 0 || above > last {
-        return values[above.min(last)];
-    }
-    let share = (at - places[above - 1]) / (places[above] - places[above - 1]);
-    values[above - 1] * (1.0 - share) + values[above] * share
+fn between(places: &[f64], values: Vec<Vector3>, at_nm: f64) -> Vector3 {
+    let known: Vec<(f64, Vector3)> = places.iter().copied().zip(values).collect();
+    interpolated(&known, at_nm)
 }
 
 #[cfg(test)]
@@ -99,7 +67,7 @@ mod tests {
         let values = [1.0, 5.0, 9.0].map(|x| Vector3::x() * x);
         let places = [-1.0, 0.0, 0.5, 2.0, 2.5, 3.0, 7.0].into_iter();
         let found: Vec<f64> = places
-            .map(|s| between(&[0.0, 2.0, 3.0], &values, s).x)
+            .map(|s| between(&[0.0, 2.0, 3.0], values.to_vec(), s).x)
             .collect();
         assert_eq!(found, [1.0, 1.0, 2.0, 5.0, 7.0, 9.0, 9.0]);
     }

@@ -1,6 +1,6 @@
 //! Means of observed quantities over a run in a heat bath, for `summary.json`.
 
-use super::Observers;
+use super::{derived_length, observed_columns};
 use crate::statistics::{BlockAverages, Estimate};
 use crate::{Assembly, At};
 use serde::{Deserialize, Serialize};
@@ -68,28 +68,27 @@ impl ObservableSummary {
 }
 
 /// Running averages of all columns.
-pub(crate) struct Averages {
-    observers: Observers,
+pub(crate) struct Averages<'a> {
+    assembly: &'a Assembly,
     /// Start of the averages (ns); `None` without thermal noise.
     from_ns: Option<f64>,
     columns: Vec<BlockAverages>,
     last: Vec<f64>,
 }
 
-impl Averages {
-    pub(crate) fn new(assembly: &Assembly) -> Self {
-        let observers = Observers::new(assembly);
+impl<'a> Averages<'a> {
+    pub(crate) fn new(assembly: &'a Assembly) -> Self {
         Self {
             from_ns: assembly.scene.burn_in(),
-            columns: vec![BlockAverages::default(); observers.columns().len()],
-            observers,
+            columns: vec![BlockAverages::default(); observed_columns(assembly).len()],
+            assembly,
             last: Vec::new(),
         }
     }
 
     /// Summary of all columns from a single record.
     pub(crate) fn of_one(
-        assembly: &Assembly,
+        assembly: &'a Assembly,
         (at, observed): (At, &[f64]),
     ) -> BTreeMap<String, ObservableSummary> {
         let mut all = Self::new(assembly);
@@ -113,14 +112,14 @@ impl Averages {
     }
 
     pub(crate) fn end(self) -> BTreeMap<String, ObservableSummary> {
-        let names = self.observers.columns().iter().enumerate();
-        let one = |(i, name): (usize, &String)| {
+        let names = observed_columns(self.assembly).into_iter().enumerate();
+        let one = |(i, name): (usize, String)| {
             let last = self.last.get(i).copied().filter(|value| value.is_finite());
             let summary = ObservableSummary {
                 last,
-                mean: self.from_ns.map(|_| self.mean(name, &self.columns[i])),
+                mean: self.from_ns.map(|_| self.mean(&name, &self.columns[i])),
             };
-            (name.clone(), summary)
+            (name, summary)
         };
         names.map(one).collect()
     }
@@ -135,7 +134,7 @@ impl Averages {
         }) = averages.estimate()
         else {
             return MeanSummary {
-                derived: self.observers.derived(name, f64::NAN, None),
+                derived: derived_length(self.assembly, name, (f64::NAN, None)),
                 ..MeanSummary::default()
             };
         };
@@ -146,7 +145,7 @@ impl Averages {
             block_records: block,
             independent_samples: Some(independent),
             records: values,
-            derived: self.observers.derived(name, mean, error),
+            derived: derived_length(self.assembly, name, (mean, error)),
         }
     }
 }

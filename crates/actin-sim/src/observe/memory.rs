@@ -1,13 +1,14 @@
-//! State of observers between records, stored in checkpoints.
+//! State of observables between records, stored in checkpoints.
 
+use crate::Assembly;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// State of all observers of a scene.
+/// State of all observables of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Memory(Vec<StoredPositions>);
 
-/// Positions stored by one observer; empty for most.
+/// Positions stored for one observable; empty for most.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct StoredPositions {
     pub(super) first: Option<[f64; 3]>,
@@ -16,8 +17,11 @@ pub(super) struct StoredPositions {
 }
 
 impl Memory {
-    pub(super) fn new(observers: usize) -> Self {
-        Self(vec![StoredPositions::default(); observers])
+    pub(crate) fn new(assembly: &Assembly) -> Self {
+        Self(vec![
+            StoredPositions::default();
+            assembly.scene.observe.len()
+        ])
     }
 
     pub(super) fn pasts(&mut self) -> impl Iterator<Item = &mut StoredPositions> {

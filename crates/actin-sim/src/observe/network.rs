@@ -1,9 +1,10 @@
 //! Order, size, connections, linker forces and virial of all filaments.
 
-use super::{Checked, Observe, RecordTimes, StoredPositions, View};
+use super::{Checked, RecordTimes, View};
+use crate::loads::loads_of;
 use crate::scene::{Factor, PeriodicBox, Scene, Setting};
 use crate::{Assembly, Part};
-use actin_mechanics::{Loads, Matrix3, Vector3};
+use actin_mechanics::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
 /// Components of symmetric tensors, in the order of their columns.
@@ -53,14 +54,6 @@ const FEWEST: f64 = 4.0;
 
 /// Relative tolerance of multiples of times.
 const SAME: f64 = 1e-6;
-
-/// Properties of a network of filaments.
-#[derive(Debug)]
-pub(super) struct Network {
-    /// Volume of the periodic box (nm^3).
-    volume: Option<f64>,
-    oscillation: Option<Oscillation>,
-}
 
 /// Strain `amplitude sin(2 pi time / period + phase)`, without its mean.
 #[derive(Debug)]
@@ -123,58 +116,56 @@ impl Oscillation {
     }
 }
 
-impl Network {
-    pub(super) fn new(scene: &Scene) -> Self {
-        let periodic = scene.periodic.as_ref();
-        Self {
-            volume: periodic.map(PeriodicBox::volume),
-            oscillation: Oscillation::new(scene),
-        }
+pub(super) fn columns(scene: &Scene) -> Vec<String> {
+    let scalars = SCALARS.iter().map(|name| format!("network_{name}"));
+    let virial = COMPONENTS
+        .iter()
+        .map(|(name, ..)| format!("network_virial_{name}_pn_nm"));
+    let names = COMPONENTS.iter().filter(|_| scene.periodic.is_some());
+    let stress = names.map(|(name, ..)| format!("network_stress_{name}_pa"));
+    let moduli = Oscillation::new(scene).map(|_| MODULI.map(str::to_owned));
+    let moduli = moduli.into_iter().flatten();
+    scalars.chain(virial).chain(stress).chain(moduli).collect()
+}
+
+/// Refuses records from which the moduli of an oscillating box cannot be averaged.
+pub(super) fn check(scene: &Scene, times: Option<&RecordTimes>) -> Checked {
+    match (Oscillation::new(scene), times) {
+        (Some(oscillation), Some(times)) => oscillation.check(times),
+        _ => Ok(()),
     }
 }
 
-impl Observe for Network {
-    fn columns(&self) -> Vec<String> {
-        let scalars = SCALARS.iter().map(|name| format!("network_{name}"));
-        let virial = COMPONENTS
-            .iter()
-            .map(|(name, ..)| format!("network_virial_{name}_pn_nm"));
-        let names = COMPONENTS.iter().filter(|_| self.volume.is_some());
-        let stress = names.map(|(name, ..)| format!("network_stress_{name}_pa"));
-        let moduli = MODULI.iter().filter(|_| self.oscillation.is_some());
-        let moduli = moduli.map(|name| (*name).to_owned());
-        scalars.chain(virial).chain(stress).chain(moduli).collect()
-    }
-
-    fn check(&self, _assembly: &Assembly, times: Option<&RecordTimes>) -> Checked {
-        match (&self.oscillation, times) {
-            (Some(oscillation), Some(times)) => oscillation.check(times),
-            _ => Ok(()),
+/// Properties of a network of filaments.
+pub(super) fn values(view: &View<'_>) -> Vec<f64> {
+    let scene = &view.assembly.scene;
+    let volume = scene.periodic.as_ref().map(PeriodicBox::volume);
+    let edges = Edges::new(view);
+    let linkers = Linkers::new(view);
+    let sizes = cluster_sizes(view.assembly.filaments.len(), &linkers.joined);
+    let largest = sizes.iter().copied().max().unwrap_or_default();
+    let mut row = vec![
+        edges.order,
+        edges.mean,
+        edges.gyration.trace().sqrt(),
+        edges.mesh_size_nm(volume),
+        linkers.tensions.len() as f64,
+        sizes.len() as f64,
+        largest as f64,
+    ];
+    row.extend(statistics(&linkers.tensions));
+    row.extend(quantiles(linkers.tensions));
+    let virial = virial(view);
+    let virial = COMPONENTS.map(|(_, i, j)| 0.5 * (virial[(i, j)] + virial[(j, i)]));
+    row.extend(virial);
+    if let Some(volume) = volume {
+        let stress = virial.map(|one| one / volume * PA);
+        row.extend(stress);
+        if let Some(oscillation) = Oscillation::new(scene) {
+            row.extend(oscillation.moduli(stress[XZ], view.state.time));
         }
     }
-
-    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
-        let edges = Edges::new(view);
-        row.extend([edges.order, edges.mean, edges.gyration.trace().sqrt()]);
-        row.push(edges.mesh_size_nm(self.volume));
-        let linkers = Linkers::new(view);
-        row.extend([linkers.tensions.len() as f64]);
-        let sizes = cluster_sizes(view.assembly.filaments.len(), &linkers.joined);
-        let largest = sizes.iter().copied().max().unwrap_or_default();
-        row.extend([sizes.len() as f64, largest as f64]);
-        row.extend(statistics(&linkers.tensions));
-        row.extend(quantiles(linkers.tensions));
-        let virial = virial(view);
-        let virial = COMPONENTS.map(|(_, i, j)| 0.5 * (virial[(i, j)] + virial[(j, i)]));
-        row.extend(virial);
-        if let Some(volume) = self.volume {
-            let stress = virial.map(|one| one / volume * PA);
-            row.extend(stress);
-            if let Some(oscillation) = &self.oscillation {
-                row.extend(oscillation.moduli(stress[XZ], view.state.time));
-            }
-        }
-    }
+    row
 }
 
 /// Averages over the edges of all centre lines, weighted by length.
@@ -306,13 +297,10 @@ fn quantiles(mut tensions: Vec<f64>) -> [f64; PERCENT.len()] {
 /// These forces add up to zero, so that the tensor does not depend on the origin. Its symmetric part is the derivative of
 /// their energy with respect to a uniform strain of all points at fixed orientations.
 fn virial(view: &View<'_>) -> Matrix3 {
-    let mut loads = Loads::zeros(view.state);
     let interactions = view.assembly.system.interactions();
-    for (interaction, term) in interactions.iter().zip(&view.assembly.terms) {
-        if is_internal(view.assembly, term.part) {
-            interaction.add_loads(view.state, &mut loads);
-        }
-    }
+    let terms = interactions.iter().zip(&view.assembly.terms);
+    let internal = terms.filter(|(_, term)| is_internal(view.assembly, term.part));
+    let loads = loads_of(internal.map(|(interaction, _)| interaction), view.state);
     let points = 0..view.assembly.points.len();
     let of_points = points.fold(Matrix3::zeros(), |sum, i| {
         sum - view.state.points.position.get(i) * loads.force.get(i).transpose()

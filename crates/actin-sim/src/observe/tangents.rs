@@ -1,6 +1,6 @@
 //! Tangent correlation and persistence length.
 
-use super::{Checked, DerivedLength, Observe, RecordTimes, StoredPositions, View};
+use super::{Checked, DerivedLength};
 use crate::Assembly;
 use crate::shape::Ribbon;
 use actin_mechanics::Vector3;
@@ -8,7 +8,33 @@ use actin_mechanics::Vector3;
 /// Tolerance (nm) above the round-off of sums of lengths.
 const SAME_PLACE_NM: f64 = 1e-9;
 
-/// Mean cosine of the angle between cross-sections at a distance.
+pub(super) fn columns(filament: usize, over_nm: f64) -> Vec<String> {
+    vec![format!("tangent_correlation[{filament}]_over_{over_nm}nm")]
+}
+
+/// Persistence length from the mean correlation and its standard error; an unknown mean is NaN.
+pub(super) fn persistence_length(over_nm: f64, mean: f64, error: Option<f64>) -> DerivedLength {
+    let loss = -mean.ln();
+    let length = Some(over_nm / loss).filter(|p| p.is_finite() && *p > 0.0);
+    let errors = length.zip(error).map(|(p, e)| p * e / (mean * loss));
+    DerivedLength {
+        persistence_length_nm: length,
+        persistence_length_error_nm: errors,
+    }
+}
+
+/// Refuses a distance beyond the frames of the filament.
+pub(super) fn check(assembly: &Assembly, filament: usize, over_nm: f64) -> Checked {
+    let s_nm = Ribbon::from_state(assembly, filament, &assembly.rest).frame_s_nm;
+    let most = s_nm[s_nm.len() - 1] - s_nm[0];
+    if most > 0.0 && over_nm <= most + SAME_PLACE_NM {
+        return Ok(());
+    }
+    let rule = format!("must be at most {most:?}, from the first cross-section to the last");
+    Err(("over_nm", over_nm, rule))
+}
+
+/// Mean cosine of the angle between cross-sections at a distance (nm).
 ///
 /// The normal of a cross-section is the third axis of its frame, which shear does not rotate.
 /// Cosines are interpolated linearly between frames. All pairs have equal weight. In a heat bath, a
@@ -16,52 +42,7 @@ const SAME_PLACE_NM: f64 = 1e-9;
 ///
 /// # Source
 /// Doi and Edwards, The Theory of Polymer Dynamics (1986), section 8.8.
-#[derive(Debug)]
-pub(super) struct TangentCorrelation {
-    pub(super) filament: usize,
-    pub(super) over_nm: f64,
-    /// `true` if only heat bends the filament, so that a persistence length is defined.
-    pub(super) tells_length: bool,
-}
-
-impl Observe for TangentCorrelation {
-    fn columns(&self) -> Vec<String> {
-        let Self {
-            filament, over_nm, ..
-        } = self;
-        vec![format!("tangent_correlation[{filament}]_over_{over_nm}nm")]
-    }
-
-    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
-        row.push(correlation(view.ribbon(self.filament), self.over_nm));
-    }
-
-    fn derived(&self, mean: f64, error: Option<f64>) -> Option<DerivedLength> {
-        if !self.tells_length {
-            return None;
-        }
-        let loss = -mean.ln();
-        let length = Some(self.over_nm / loss).filter(|p| p.is_finite() && *p > 0.0);
-        let errors = length.zip(error).map(|(p, e)| p * e / (mean * loss));
-        Some(DerivedLength {
-            persistence_length_nm: length,
-            persistence_length_error_nm: errors,
-        })
-    }
-
-    fn check(&self, assembly: &Assembly, _estimate: Option<&RecordTimes>) -> Checked {
-        let s_nm = Ribbon::from_state(assembly, self.filament, &assembly.rest).frame_s_nm;
-        let most = s_nm[s_nm.len() - 1] - s_nm[0];
-        if most > 0.0 && self.over_nm <= most + SAME_PLACE_NM {
-            return Ok(());
-        }
-        let rule = format!("must be at most {most:?}, from the first cross-section to the last");
-        Err(("over_nm", self.over_nm, rule))
-    }
-}
-
-/// Mean over all frames with another frame at this distance (nm).
-fn correlation(ribbon: &Ribbon, over_nm: f64) -> f64 {
+pub(super) fn correlation(ribbon: &Ribbon, over_nm: f64) -> f64 {
     let s_nm = &ribbon.frame_s_nm;
     let normals: Vec<Vector3> = ribbon.frames.iter().map(|q| q * Vector3::z()).collect();
     let (mut sum, mut count, mut upper) = (0.0, 0.0, 0);

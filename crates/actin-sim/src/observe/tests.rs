@@ -1,6 +1,6 @@
 //! Observed quantities against theory, summaries and profiles of the same state.
 
-use super::{Observers, View, observed_columns};
+use super::{Memory, View, observed_columns, observed_values};
 use crate::{Assembly, At, End, Plan, Record, Scene, Summary};
 use actin_mechanics::{State, Vector3, Xorshift, perturb, rotation};
 
@@ -16,8 +16,7 @@ pub(super) fn observe(assembly: &Assembly, state: &State) -> Vec<f64> {
         .map(|i| i.energy(state))
         .collect();
     let view = View::new(assembly, (At::Time(0.0), state), (&energies, 0.25));
-    let observers = Observers::new(assembly);
-    observers.row(&view, &mut observers.memory())
+    observed_values(&view, &mut Memory::new(assembly))
 }
 
 /// The value of a column.
@@ -178,8 +177,7 @@ fn displacements_are_over_their_lag() {
          observe: [SquaredDisplacement(of: Tip, lag_ns: 0.5), SquaredDisplacement(of: Centre)],
          task: Dynamics(duration_ns: 3.0, record_every_ns: 0.25))",
     );
-    let observers = Observers::new(&assembly);
-    let mut memory = observers.memory();
+    let mut memory = Memory::new(&assembly);
     let energies = vec![0.0; assembly.terms.len()];
     let mut at = |time: f64| {
         let mut state = assembly.rest.clone();
@@ -187,7 +185,7 @@ fn displacements_are_over_their_lag() {
             state.points.position.add(i, Vector3::x() * (2.0 * time));
         }
         let view = View::new(&assembly, (At::Time(time), &state), (&energies, 0.0));
-        observers.row(&view, &mut memory)
+        observed_values(&view, &mut memory)
     };
     let [first, second] = [at(0.0), at(0.25)];
     assert!(first[0].is_nan() && second[0].is_nan());

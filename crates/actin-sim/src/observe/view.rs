@@ -1,5 +1,6 @@
 //! Record as input of observers, with shared lazy values.
 
+use crate::loads::loads_of;
 use crate::shape::Ribbon;
 use crate::{Assembly, At};
 use actin_mechanics::{Loads, State};
@@ -39,12 +40,8 @@ impl<'a> View<'a> {
 
     /// All loads, at the cost of one additional evaluation.
     pub(crate) fn loads(&self) -> &Loads {
-        self.loads.get_or_init(|| {
-            let mut loads = Loads::zeros(self.state);
-            for interaction in self.assembly.system.interactions() {
-                interaction.add_loads(self.state, &mut loads);
-            }
-            loads
-        })
+        let interactions = self.assembly.system.interactions();
+        self.loads
+            .get_or_init(|| loads_of(interactions, self.state))
     }
 }

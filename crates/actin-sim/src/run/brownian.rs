@@ -1,17 +1,16 @@
 //! Overdamped motion: friction, time step and run.
 
-use super::dynamics::{check_records, conclude};
+use super::dynamics::check_records;
 use super::estimate::LongestStep;
 use super::recorder::Recorder;
-use super::sink::{Clock, SavedRun, Sink};
 use super::step_check::StepCheck;
-use super::steps::Steps;
 use super::unknowns::layout;
-use super::{Estimate, Failure, Outcome, Status, long_steps};
+use super::{Estimate, Failure, Outcome, long_steps};
 use crate::scene::{Brownian as Task, Flow, Fluid, SceneProblem, Task as AnyTask};
 use crate::{Assembly, SectionSpan};
+use actin_assembly::problem_at;
 use actin_brownian::{Brownian, Layout, Relaxation};
-use actin_integrate::{POSITION_VERLET, Run, Split};
+use actin_integrate::{POSITION_VERLET, Run};
 use actin_mechanics::{System, Vector3};
 
 /// Approximate iterations of a step with midpoints and with random stress.
@@ -96,8 +95,7 @@ fn relaxation(
 ) -> Result<Relaxation, SceneProblem> {
     let friction = assembly.friction(fluid)?;
     let layout = with_method(layout(assembly)?);
-    Relaxation::new(&assembly.system, layout, &friction)
-        .map_err(|error| SceneProblem::new("task", "", error.to_string()))
+    Relaxation::new(&assembly.system, layout, &friction).map_err(problem_at("task"))
 }
 
 /// Highest rate of relaxation (1/ns), found without factors of the whole stiffness of linked filaments.
@@ -120,31 +118,21 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
         Some(ns) => ns.max(of_midpoints),
     };
     let wanted = task.time_step_ns.unwrap_or(default);
-    let steps = Steps::new(&motion, wanted.min(motion.duration_ns))?;
-    task.flow.check_step(steps.length_ns)?;
-    check_records(assembly, &motion, &steps)?;
-    assembly.check_rates(steps.length_ns)?;
-    let longest_sound_step = motion.thermal.map(|_| LongestStep {
+    let mut estimate = Estimate::in_steps(&motion, wanted.min(motion.duration_ns))?;
+    task.flow.check_step(estimate.time_step_ns)?;
+    check_records(assembly, &motion, &estimate)?;
+    assembly.check_rates(estimate.time_step_ns)?;
+    estimate.longest_sound_step = motion.thermal.map(|_| LongestStep {
         ns: default,
         of_midpoints_ns: of_midpoints,
         has_bonds: assembly.counts().bonds > 0,
     });
-    check_length(wanted, longest_sound_step.as_ref())?;
-    let mut estimate = Estimate {
-        largest_frequency_rad_per_ns: 0.0,
-        stability_limit_ns: f64::INFINITY,
-        time_step_ns: steps.length_ns,
-        steps: steps.count,
-        steps_between_records: steps.between_records,
-        record_every_ns: steps.record_every_ns,
-        force_evaluations: 0,
-        longest_sound_step,
-    };
+    check_length(wanted, estimate.longest_sound_step.as_ref())?;
     let iterations = match motion.thermal {
         None => ITERATIONS_WITHOUT_NOISE,
         Some(_) => ITERATIONS[usize::from(estimate.has_random_stress())],
     };
-    estimate.force_evaluations = steps.count * iterations;
+    estimate.force_evaluations = estimate.steps * iterations;
     Ok(estimate)
 }
 
@@ -196,8 +184,7 @@ impl Estimate {
         let friction = assembly.friction(&task.drag)?;
         let noise = task.thermal();
         let noise = noise.map_or((0.0, 0), |t| (t.energy_pn_nm(), t.seed));
-        let stepper = Brownian::new(system, layout, friction, noise)
-            .map_err(|error| SceneProblem::new("task", "", error.to_string()))?;
+        let stepper = Brownian::new(system, layout, friction, noise).map_err(problem_at("task"))?;
         Ok(if self.has_random_stress() {
             let held = held_off_axis(assembly);
             stepper.with_spinning_frames(system, |frame| !held[assembly.filament_of_frame(frame)])
@@ -268,18 +255,13 @@ fn physical_flow(flow: &Flow) -> actin_brownian::Flow {
 }
 
 /// Runs the motion.
-pub(super) fn run(
-    assembly: &Assembly,
+pub(super) fn run<'a>(
+    assembly: &'a Assembly,
     task: &Task,
     estimate: &Estimate,
-    saved: Option<SavedRun>,
-    clock: Clock,
-    sink: &mut dyn Sink,
+    mut recorder: Recorder<'a>,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
-    let refused = |error: &dyn std::error::Error| SceneProblem::new("task", "", error.to_string());
-    let motion = task.to_dynamics();
     let mut system = assembly.system.in_state(assembly.system.state().clone());
-    let mut recorder = Recorder::new(assembly, &motion, saved, clock, sink);
     // The order of unknowns follows the state as built, also for a resumed run.
     let new_stepper = |system: &System| {
         let stepper = estimate.stepper((assembly, task), system, layout(assembly)?)?;
@@ -290,28 +272,12 @@ pub(super) fn run(
     recorder.drive(&mut compared);
     let compared = (compared, new_stepper(&system)?);
     recorder.step_check = Some(StepCheck::new(assembly, estimate, compared));
-    // The method is not looked at: the stepper makes the steps.
+    // The stepper makes the steps instead of this method.
     let run = Run::new(&POSITION_VERLET, estimate.time_step_ns, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))
         // Long steps could let filaments pass through each other within a few steps.
         .and_then(|run| run.checking_every(1))
-        .map_err(|error| refused(&error))?
+        .map_err(problem_at("task"))?
         .stopping_from(recorder.drive(&mut system));
-    let begun = recorder.is_whole().then(|| system.total_energy());
-    recorder.let_happen(&mut system);
-    if let Some(energy_balance) = assembly.energy_balance {
-        system.track_energy_balance(energy_balance);
-    }
-    let ending = recorder.execute_steps(&run, &mut stepper, &mut system);
-    let ending = recorder.end(ending, &mut system);
-    let wall_s = recorder.wall_s();
-    let outcome = Outcome {
-        force_evaluations: system.force_evaluations(),
-        time_step_ns: Some(estimate.time_step_ns),
-        begun_with_pn_nm: begun,
-        events: recorder.events(),
-        ..Outcome::new(Status::Failed, wall_s)
-    }
-    .with(recorder.taken.into_remarks());
-    Ok(conclude(assembly, &motion, ending, outcome))
+    Ok(recorder.run(estimate, (&run, Some(&mut stepper)), system))
 }

@@ -1,18 +1,17 @@
 //! Motion in time: time step, run and end of the run.
 
-use super::bound::kinetic_limit;
 use super::estimate::{Estimate, composition_of};
-use super::recorder::{Ending, Recorder};
-use super::rest::{is_saddle, saddle};
-use super::sink::{Clock, SavedRun, Sink};
-use super::steps::Steps;
+use super::recorder::Recorder;
 use super::unknowns::layout;
-use super::{Failure, Outcome, Status};
-use crate::scene::{Dynamics, Filament, Fluid, RodLaw, SceneProblem, StopTolerances};
+use super::{Failure, Outcome};
+use crate::scene::{
+    Dynamics, Filament, Fluid, FreeTranslation, Load, Resultant, RodLaw, SceneProblem,
+    StopTolerances, Task,
+};
 use crate::{Assembly, memory};
+use actin_assembly::problem_at;
 use actin_brownian::Langevin;
-use actin_integrate::{Bath, Composition, Drag, Reason, Run};
-use actin_mechanics::{Split, System};
+use actin_integrate::{Bath, Composition, Drag, Run, Stepper};
 
 pub(super) fn estimate(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
@@ -52,18 +51,14 @@ fn estimate_at(
     if wanted > limit && !dynamics.allow_unstable_step {
         return Err(unstable(scheme, wanted, limit, frequency));
     }
-    let steps = Steps::new(dynamics, wanted)?;
-    check_records(assembly, dynamics, &steps)?;
-    assembly.check_rates(steps.length_ns)?;
+    let estimate = Estimate::in_steps(dynamics, wanted)?;
+    check_records(assembly, dynamics, &estimate)?;
+    assembly.check_rates(estimate.time_step_ns)?;
     Ok(Estimate {
         largest_frequency_rad_per_ns: frequency,
         stability_limit_ns: limit,
-        time_step_ns: steps.length_ns,
-        steps: steps.count,
-        steps_between_records: steps.between_records,
-        record_every_ns: steps.record_every_ns,
-        force_evaluations: steps.count * scheme.force_evaluations_per_step() as u64,
-        longest_sound_step: None,
+        force_evaluations: estimate.steps * scheme.force_evaluations_per_step() as u64,
+        ..estimate
     })
 }
 
@@ -119,23 +114,14 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Sc
 pub(super) fn check_records(
     assembly: &Assembly,
     dynamics: &Dynamics,
-    steps: &Steps,
+    estimate: &Estimate,
 ) -> Result<(), SceneProblem> {
-    let records = number_of_records(steps.count, steps.between_records);
-    let value = format!(
-        "{:?}",
-        dynamics.record_every_ns.unwrap_or(steps.record_every_ns)
-    );
-    let bytes = assembly.bytes + records * memory::of_kept_record(assembly);
-    actin_assembly::memory::check(bytes, ("task.record_every_ns", value), || {
-        let bodies = assembly.points.len() + assembly.frames.len();
+    let records = estimate.records() as f64;
+    let every_ns = dynamics.record_every_ns.unwrap_or(estimate.record_every_ns);
+    let key = ("task.record_every_ns", format!("{every_ns:?}"));
+    memory::check_records(assembly, records, key, |bodies| {
         format!("{records:.2e} records of {bodies} bodies need")
     })
-}
-
-/// Number of records of a motion, including the first and the last.
-fn number_of_records(steps: u64, between_records: u64) -> f64 {
-    (steps / between_records + 1) as f64
 }
 
 /// Returns the same filaments with rods of constant rigidities, if rods resist shear only after
@@ -163,142 +149,99 @@ pub(super) fn run(
     assembly: &Assembly,
     dynamics: &Dynamics,
     estimate: &Estimate,
-    saved: Option<SavedRun>,
-    clock: Clock,
-    sink: &mut dyn Sink,
+    recorder: Recorder<'_>,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
     let mut system = assembly.system.in_state(assembly.system.state().clone());
-    let mut recorder = Recorder::new(assembly, dynamics, saved, clock, sink);
-    let run = prepare((assembly, dynamics), &recorder, &mut system, estimate)?;
-    // Loads have their initial factors.
-    let begun = recorder.is_whole().then(|| system.total_energy());
-    recorder.let_happen(&mut system);
-    if let Some(energy_balance) = assembly.energy_balance {
-        system.track_energy_balance(energy_balance);
-    }
-    let ending = match dynamics.drag.fluid() {
-        None => recorder.execute(&run, &mut system),
-        Some(fluid) => {
-            let mut stepper = langevin(assembly, dynamics, fluid)?;
-            recorder.execute_steps(&run, &mut stepper, &mut system)
-        }
-    };
-    let ending = recorder.end(ending, &mut system);
-    let wall_s = recorder.wall_s();
-    let outcome = Outcome {
-        force_evaluations: system.force_evaluations(),
-        time_step_ns: Some(estimate.time_step_ns),
-        largest_frequency_rad_per_ns: Some(estimate.largest_frequency_rad_per_ns),
-        begun_with_pn_nm: begun,
-        largest_kinetic_pn_nm: recorder.largest_kinetic_pn_nm,
-        saddles_left: recorder.pushes.len(),
-        events: recorder.events(),
-        pushes: recorder.pushes,
-        ..Outcome::new(Status::Failed, wall_s)
-    }
-    .with(recorder.taken.into_remarks());
-    Ok(conclude(assembly, dynamics, ending, outcome))
-}
-
-pub(super) fn conclude(
-    assembly: &Assembly,
-    dynamics: &Dynamics,
-    ending: Ending,
-    outcome: Outcome,
-) -> (Outcome, Option<Failure>) {
-    let (mut outcome, failure) = ended(assembly, dynamics, ending, outcome);
-    // Later events belong to no record.
-    let steps = outcome.steps;
-    outcome.events.retain(|event| event.step <= steps);
-    (outcome, failure)
-}
-
-fn ended(
-    assembly: &Assembly,
-    dynamics: &Dynamics,
-    ending: Ending,
-    mut outcome: Outcome,
-) -> (Outcome, Option<Failure>) {
-    let failure = match ending {
-        Ending::Interrupted(end) => {
-            outcome.status = Status::Interrupted;
-            outcome.steps = end.steps;
-            outcome.force_evaluations = end.force_evaluations;
-            None
-        }
-        Ending::Ended(end, at_rest) => {
-            outcome.status = match end.reason {
-                Reason::Converged => Status::Converged,
-                _ => Status::Completed,
-            };
-            outcome.steps = end.steps;
-            outcome.force_evaluations = end.force_evaluations;
-            outcome.at_rest = at_rest;
-            let certificate = at_rest.filter(is_saddle);
-            let attempts = dynamics.leave_saddles;
-            certificate.map(|c| Failure::Saddle(saddle(&c, attempts, way_off(dynamics))))
-        }
-        Ending::Slipped(lost, step) => {
-            outcome.steps = step;
-            let place = format!("at {:.4} ns, ", lost.at().value());
-            Some(Failure::from_turn_loss(lost, place))
-        }
-        Ending::Failed(failure) => {
-            outcome.steps = failure.last_good_step;
-            let body = assembly.describe(failure.body);
-            Some(Failure::Diverged { failure, body })
-        }
-    };
-    (outcome, failure)
-}
-
-fn way_off(dynamics: &Dynamics) -> &'static str {
-    match dynamics.leave_saddles {
-        0 => {
-            "with leave_saddles: 1 or more the motion is pushed off saddles and continues; an \
-             imperfection of the filament, such as (amplitude_nm: 0.01, seed: 1), keeps it off them"
-        }
-        _ => "more pushes or a longer duration_ns may lead off it",
-    }
-}
-
-fn prepare(
-    (assembly, dynamics): (&Assembly, &Dynamics),
-    recorder: &Recorder<'_>,
-    system: &mut System,
-    estimate: &Estimate,
-) -> Result<Run, SceneProblem> {
     let limit = kinetic_limit(assembly, recorder.begun_with_pn_nm());
     let run = plan(dynamics, estimate)?
-        .stopping_from(recorder.drive(system))
+        .stopping_from(recorder.drive(&mut system))
         .with_kinetic_limit(limit)
         .expect("the limit is positive");
     // The bound limits the total energy. In a bath strain has additional thermal energy.
-    Ok(match dynamics.thermal {
+    let run = match dynamics.thermal {
         Some(_) => run,
         None => run.with_energy_limit(limit).expect("the limit is a number"),
-    })
+    };
+    let fluid = dynamics.drag.fluid();
+    let mut stepper = fluid
+        .map(|fluid| langevin(assembly, dynamics, fluid))
+        .transpose()?;
+    let stepper = stepper.as_mut().map(|stepper| stepper as &mut dyn Stepper);
+    let (outcome, failure) = recorder.run(estimate, (&run, stepper), system);
+    let outcome = Outcome {
+        largest_frequency_rad_per_ns: Some(estimate.largest_frequency_rad_per_ns),
+        ..outcome
+    };
+    Ok((outcome, failure))
+}
+
+/// Safety factor for integrator errors near the stability limit and for nonconservative loads.
+const ROOM: f64 = 2.0;
+
+/// Absolute margin (pN nm) above round-off in filaments without loads, about 1e-20.
+const LEAST: f64 = 1.0;
+
+/// Margin above the mean thermal kinetic energy of a filament, in units of kT. The probability
+/// falls by a factor e per unit.
+const THERMAL_EXCESS: f64 = 50.0;
+
+/// Upper bound of the kinetic energy (pN nm) of a motion with initial energy `begun_with` (pN nm);
+/// infinite if unknown.
+///
+/// With constant controls, the energy is at most the initial energy plus the work of the loads. On
+/// a clamped filament each load does at most the work `2 L |F|`, because no point moves by more
+/// than twice the length. A heat bath adds `kT / 2` per degree of freedom and `THERMAL_EXCESS` kT
+/// in total.
+fn kinetic_limit(assembly: &Assembly, begun_with: f64) -> f64 {
+    let scene = &assembly.scene;
+    let is_fast = |filament: usize| {
+        let mut clamps = assembly.clamps.iter();
+        clamps.any(|clamp| clamp.filament == filament && clamp.slides == FreeTranslation::Nowhere)
+    };
+    let work_of = |load: &Load| match load.resultant(scene) {
+        Resultant::Force(force) if stays(load) && is_fast(load.filament()) => {
+            2.0 * (force.norm() * assembly.length_of(load.filament()))
+        }
+        _ => f64::INFINITY,
+    };
+    let work: f64 = scene.loads.iter().map(work_of).sum();
+    // Linkers that form in a stretched state add energy.
+    if !scene.path.is_empty() || work.is_infinite() || assembly.kinetics.is_some() {
+        return f64::INFINITY;
+    }
+    let heat = thermal_energy(assembly) * (0.5 * assembly.counts().dofs as f64 + THERMAL_EXCESS);
+    let limit = ROOM * (begun_with + work + heat) + LEAST;
+    if limit.is_nan() { f64::INFINITY } else { limit }
+}
+
+/// Returns `true` if a load is constant in time and space and keeps its resultant.
+fn stays(load: &Load) -> bool {
+    !load.follows() && load.factor().is_constant() && !matches!(load, Load::Acceleration(_))
+}
+
+fn thermal_energy(assembly: &Assembly) -> f64 {
+    match &assembly.scene.task {
+        Task::Dynamics(dynamics) => dynamics.thermal.map_or(0.0, |t| t.energy_pn_nm()),
+        Task::Brownian(_) | Task::Equilibrium(_) => 0.0,
+    }
 }
 
 fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
-    let refused = |key: &str, error: &dyn std::error::Error| {
-        SceneProblem::new(format!("task.{key}"), "", error.to_string())
-    };
     let rates = dynamics.drag.rates();
     let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns)
-        .map_err(|error| refused("drag", &error))?;
+        .map_err(problem_at("task.drag"))?;
     let step = estimate.time_step_ns;
     let scheme = composition_of(dynamics);
     let run = Run::new(scheme, step, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))
-        .map_err(|error| refused("time_step_ns", &error))?;
+        .map_err(problem_at("task.time_step_ns"))?;
     // Steps in a fluid include their own noise.
     let bath = (dynamics.thermal.as_ref()).filter(|_| dynamics.drag.fluid().is_none());
     let run = match bath {
         None => run.with_drag(drag),
         Some(thermal) => Bath::new(drag, thermal.energy_pn_nm(), thermal.seed)
             .map(|bath| run.with_bath(bath))
-            .map_err(|error| refused("thermal.temperature_k", &error))?,
+            .map_err(problem_at("task.thermal.temperature_k"))?,
     };
     let Some(StopTolerances {
         force_pn,
@@ -310,7 +253,7 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
     };
     actin_integrate::StopRule::new(force_pn, torque_pn_nm, kinetic_pn_nm)
         .map(|rule| run.with_stop_rule(rule))
-        .map_err(|error| refused("stop", &error))
+        .map_err(problem_at("task.stop"))
 }
 
 fn langevin(
@@ -321,6 +264,49 @@ fn langevin(
     let thermal = dynamics.thermal;
     let noise = thermal.map_or((0.0, 0), |t| (t.energy_pn_nm(), t.seed));
     let friction = assembly.friction(fluid)?;
-    Langevin::new(&assembly.system, layout(assembly)?, friction, noise)
-        .map_err(|error| SceneProblem::new("task", "", error.to_string()))
+    Langevin::new(&assembly.system, layout(assembly)?, friction, noise).map_err(problem_at("task"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::kinetic_limit;
+    use crate::{Assembly, Scene};
+
+    const FORCE: &str = "EndForce(end: End, force_pn: (3.0, 0.0, 4.0))";
+
+    fn limit_of(clamps: &str, loads: &str) -> f64 {
+        limit_in(clamps, loads, "duration_ns: 1.0")
+    }
+
+    fn limit_in(clamps: &str, loads: &str, task: &str) -> f64 {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)], rod: RodModel(law: Constant)),
+                clamps: [{clamps}],
+                loads: [{loads}],
+                task: Dynamics({task}),
+            )"
+        );
+        let scene = Scene::from_ron(&text).unwrap();
+        let assembly = Assembly::build(&scene).unwrap();
+        kinetic_limit(&assembly, assembly.system.total_energy())
+    }
+
+    /// Twice 60 nm times 5 pN, plus 1. Without a clamp the work is unbounded.
+    #[test]
+    fn the_work_of_the_loads_is_bounded_where_an_end_is_fast() {
+        assert!((limit_of("Clamp(end: Start)", FORCE) - 601.0).abs() < 1e-9);
+        assert!(limit_of("", FORCE).is_infinite());
+        assert!((limit_of("", "") - 1.0).abs() < 1e-9);
+    }
+
+    /// 18 degrees of freedom (three nodes, three frames) at 300 K add 2 (9 + 50) kT.
+    #[test]
+    fn heat_counts() {
+        let task = "duration_ns: 1.0, thermal: (temperature_k: 300.0, seed: 1), \
+                    drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0)";
+        let heat =
+            limit_in("Clamp(end: Start)", FORCE, task) - limit_of("Clamp(end: Start)", FORCE);
+        assert!((heat - 118.0 * 300.0 * 0.013_806_49).abs() < 1e-9);
+    }
 }

@@ -1,8 +1,6 @@
 //! Equilibria by Newton's method, from the state as built or along the path of the scene.
 
-use super::lost_load::lost_load;
-use super::model_error::{MeasureModelError, ModelErrorResult};
-use super::outcome::EquilibriumReport;
+use super::outcome::{EquilibriumReport, MeasureModelError};
 use super::record_stream::RecordStream;
 use super::rest::{is_saddle, saddle};
 use super::sink::{Clock, PathPosition, SavedRun, Sink, SolveReport};
@@ -12,13 +10,17 @@ use super::unknowns::newton;
 use super::{Failure, Outcome, Progress, Record, RecordSummary, RunPosition, Status};
 use crate::Assembly;
 use crate::At;
-use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
+use crate::scene::{Equilibrium as Settings, Load, Resultant, SceneProblem};
+use actin_assembly::problem_at;
 use actin_equilibrium::{
     Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path, PathError,
     PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
 };
 use actin_mechanics::{State, System};
 use std::ops::ControlFlow;
+
+/// Largest resolved ratio of residual to load.
+const RESOLVED: f64 = 0.01;
 
 pub(super) fn run(
     assembly: &Assembly,
@@ -33,41 +35,64 @@ pub(super) fn run(
     let failure = follower.follow_to_the_end(&mut newton, &mut state)?;
     let of_path = newton.work();
     let states = match failure {
-        None => follower.look_around(&mut newton, &state)?,
+        None => follower.search_states(&mut newton, &state)?,
         Some(_) => None,
     };
-    // An interruption after the last equilibrium has no effect.
-    let is_interrupted = follower.is_interrupted && failure.is_none();
-    let Follower {
-        position,
-        taken,
-        clock,
-        ..
-    } = follower;
-    let wanted = settings.lowest_eigenvalue && !is_interrupted;
+    let status = match failure {
+        Some(_) => Status::Failed,
+        // An interruption after the last equilibrium has no effect.
+        None if follower.is_interrupted => Status::Interrupted,
+        None => Status::Converged,
+    };
+    let position = follower.position;
+    let wanted = settings.lowest_eigenvalue && status != Status::Interrupted;
     let last = position.last.as_ref().filter(|_| wanted);
-    let lowest = lowest_eigenvalue(&mut newton, &assembly.system, &state, last);
-    let is_done = failure.is_none() && !is_interrupted;
-    let judged = settings.error_of.filter(|_| is_done);
-    let error = judged.map(|quantity| {
+    let lowest_eigenvalue = lowest_eigenvalue(&mut newton, &assembly.system, &state, last);
+    let wanted = settings.error_of.filter(|_| status == Status::Converged);
+    let error = wanted.map(|quantity| {
         let last = Record::of_equilibrium(&assembly.system, 0.0, &state);
         model_error(assembly, &last, quantity)
     });
-    let work = newton.work();
-    let status = match (&failure, is_interrupted) {
-        (Some(_), _) => Status::Failed,
-        (None, true) => Status::Interrupted,
-        (None, false) => Status::Converged,
-    };
     let outcome = Outcome {
-        force_evaluations: work.evaluations,
+        force_evaluations: newton.work().evaluations,
         saddles_left: position.saddles_left,
         jumps: position.jumps,
-        equilibrium: report(position, lowest, of_path, (states, error)),
-        ..Outcome::new(status, clock.wall_s())
-    }
-    .with(taken.into_remarks());
-    Ok((outcome, failure))
+        equilibrium: report(position, of_path).map(|report| EquilibriumReport {
+            lowest_eigenvalue,
+            states,
+            error,
+            ..report
+        }),
+        ..Outcome::new(status, follower.clock.wall_s())
+    };
+    let statistics = follower.records.recorded.carried;
+    Ok((outcome.with_statistics(assembly, statistics), failure))
+}
+
+fn lowest_eigenvalue(
+    newton: &mut Newton,
+    system: &System,
+    state: &State,
+    last: Option<&SolveReport>,
+) -> Option<f64> {
+    let certificate = last?.certificate?;
+    let lowest = newton.lowest_eigenvalue(state, system.interactions(), &certificate);
+    lowest.ok().flatten()
+}
+
+/// Report of the last equilibrium, without the quantities that a scene can request.
+fn report(position: PathPosition, of_path: SolverWork) -> Option<EquilibriumReport> {
+    let last = position.last?;
+    Some(EquilibriumReport {
+        certificate: last.certificate?,
+        lowest_eigenvalue: None,
+        newton_iterations: of_path.iterations,
+        points: position.points,
+        floor: last.floor,
+        history: last.history,
+        states: None,
+        error: None,
+    })
 }
 
 fn place(assembly: &Assembly, stages_done: usize) -> String {
@@ -111,13 +136,13 @@ fn path(settings: &Settings) -> Result<Path, SceneProblem> {
         },
         ..PathOptions::default()
     };
-    Path::new(options).map_err(|error| SceneProblem::new("task", "", error.to_string()))
+    Path::new(options).map_err(problem_at("task"))
 }
 
 struct Follower<'a> {
     assembly: &'a Assembly,
     settings: &'a Settings,
-    taken: RecordStream<'a>,
+    records: RecordStream<'a>,
     clock: Clock,
     /// Position for resuming the run.
     position: PathPosition,
@@ -155,7 +180,7 @@ impl<'a> Follower<'a> {
         Self {
             assembly,
             settings,
-            taken: RecordStream::new(assembly, recorded, sink),
+            records: RecordStream::new(assembly, recorded, sink),
             clock,
             position,
             is_interrupted: false,
@@ -170,7 +195,7 @@ impl<'a> Follower<'a> {
         state: &mut State,
     ) -> Result<Option<Failure>, SceneProblem> {
         let ended = self.follow(newton, state)?;
-        if let Some(lost) = self.taken.lost() {
+        if let Some(lost) = self.records.lost.take() {
             self.is_interrupted = false;
             state.set_motion(&self.position.motion);
             self.checkpoint();
@@ -191,25 +216,25 @@ impl<'a> Follower<'a> {
             }
             None => {
                 self.is_interrupted = false;
-                self.look_closer(newton, state);
-                self.flaw()
+                self.refine_certificate(newton, state);
+                self.final_failure()
             }
         };
         self.checkpoint();
         Ok(failure)
     }
 
-    fn look_around(
+    fn search_states(
         &mut self,
         newton: &mut Newton,
         state: &State,
     ) -> Result<Option<StableStates>, SceneProblem> {
         let starts = self.settings.states;
-        let last = self.taken.last().map(|last| last.at);
+        let last = self.records.last().map(|last| last.at);
         let Some(at) = last.filter(|_| starts > 0 && !self.is_interrupted) else {
             return Ok(None);
         };
-        let tools = (newton, &mut self.taken);
+        let tools = (newton, &mut self.records);
         let states = search(self.assembly, tools, (state, at), starts)
             .map_err(|error| SceneProblem::new("task.states", starts, error.to_string()))?;
         self.is_interrupted = states.is_none();
@@ -218,7 +243,7 @@ impl<'a> Follower<'a> {
 
     /// Repeats the certificate of an apparent saddle at the smallest residual, because a residual
     /// within the tolerance can change the sign of a neutral mode.
-    fn look_closer(&mut self, newton: &mut Newton, state: &State) {
+    fn refine_certificate(&mut self, newton: &mut Newton, state: &State) {
         let certificate = self
             .position
             .last
@@ -235,8 +260,8 @@ impl<'a> Follower<'a> {
         }
     }
 
-    fn flaw(&self) -> Option<Failure> {
-        let last = self.taken.last();
+    fn final_failure(&self) -> Option<Failure> {
+        let last = self.records.last();
         let lost = last.and_then(|last| lost_load(self.assembly, last));
         lost.map(Failure::LoadBelowResidual).or_else(|| {
             let certificate = self.position.last.as_ref()?.certificate?;
@@ -264,7 +289,7 @@ impl<'a> Follower<'a> {
             let path = path(self.settings)?;
             let mut stages = self.position.stage..self.assembly.drive.stages();
             stages.try_for_each(|stage| {
-                if self.taken.has_lost() {
+                if self.records.lost.is_some() {
                     return Ok(());
                 }
                 self.stage(&path, newton, state, stage)
@@ -284,15 +309,18 @@ impl<'a> Follower<'a> {
         let attempts = self.settings.leave_saddles;
         if let Some(mut near) = near_equilibrium(self.assembly) {
             newton.carry_along(true);
-            let solved =
-                newton.minimize_observed(&mut near, interactions, attempts, &mut |_| self.go_on());
+            let solved = newton.minimize_observed(&mut near, interactions, attempts, &mut |_| {
+                self.check_interruption()
+            });
             newton.carry_along(false);
             if solved.is_ok() || self.is_interrupted {
                 *state = near;
                 return solved;
             }
         }
-        newton.minimize_observed(state, interactions, attempts, &mut |_| self.go_on())
+        newton.minimize_observed(state, interactions, attempts, &mut |_| {
+            self.check_interruption()
+        })
     }
 
     fn solve(&mut self, newton: &mut Newton, state: &mut State) -> Result<(), Box<PathFailure>> {
@@ -311,7 +339,7 @@ impl<'a> Follower<'a> {
                 if !self.is_interrupted {
                     // Keep the best state.
                     let best = Record::of_equilibrium(&self.assembly.system, 0.0, state);
-                    self.taken.take_unchecked(best);
+                    self.records.take_unchecked(best);
                 }
                 Err(Box::new(PathFailure {
                     parameter: 0.0,
@@ -349,7 +377,7 @@ impl<'a> Follower<'a> {
 
     fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) -> ControlFlow<()> {
         if !self
-            .taken
+            .records
             .take(Record::of_equilibrium(&self.assembly.system, u, state))
         {
             return ControlFlow::Break(());
@@ -369,7 +397,7 @@ impl<'a> Follower<'a> {
     }
 
     /// Saves the position for resuming: at `point`, or at the start of the next stage.
-    fn note(&mut self, point: &PathPoint<'_>) {
+    fn save_position(&mut self, point: &PathPoint<'_>) {
         let is_end = point.parameter >= 1.0;
         let position = &mut self.position;
         position.stage += usize::from(is_end);
@@ -382,16 +410,16 @@ impl<'a> Follower<'a> {
         let position = RunPosition::Path(Box::new(self.position.clone()));
         let wall_s = self.clock.wall_s();
         if self.position.points > 0 {
-            self.taken.checkpoint(&position, wall_s);
+            self.records.checkpoint(&position, wall_s);
         } else {
             // Best state of a failed attempt; the next attempt starts without it.
             let none = RecordSummary::new(self.assembly);
-            self.taken.checkpoint_behind(&position, &none, wall_s);
+            self.records.sink.checkpoint(&position, &none, wall_s);
         }
     }
 
-    fn go_on(&mut self) -> ControlFlow<()> {
-        self.is_interrupted = self.taken.sink.is_interrupted();
+    fn check_interruption(&mut self) -> ControlFlow<()> {
+        self.is_interrupted = self.records.sink.is_interrupted();
         if self.is_interrupted {
             return ControlFlow::Break(());
         }
@@ -408,50 +436,41 @@ impl PathObserver for Follower<'_> {
             self.record(u, point.state, point.equilibrium)?;
         }
         self.position.jumps += usize::from(point.jumped);
-        self.note(point);
-        self.taken.progress(&Progress {
+        self.save_position(point);
+        self.records.sink.progress(&Progress {
             at: At::Path(u),
             end: self.assembly.drive.stages() as f64,
             steps: self.position.points as u64,
             residual_force_pn: point.equilibrium.residual.force,
         });
-        if self.taken.sink.is_checkpoint_due() {
+        if self.records.sink.is_checkpoint_due() {
             self.checkpoint();
         }
-        self.go_on()
+        self.check_interruption()
     }
 
     fn iterate(&mut self, _step: &Iteration) -> ControlFlow<()> {
-        self.go_on()
+        self.check_interruption()
     }
 }
 
-fn lowest_eigenvalue(
-    newton: &mut Newton,
-    system: &System,
-    state: &State,
-    last: Option<&SolveReport>,
-) -> Option<f64> {
-    let certificate = last?.certificate?;
-    let lowest = newton.lowest_eigenvalue(state, system.interactions(), &certificate);
-    lowest.ok().flatten()
-}
-
-fn report(
-    position: PathPosition,
-    lowest_eigenvalue: Option<f64>,
-    work: SolverWork,
-    (states, error): (Option<StableStates>, Option<ModelErrorResult>),
-) -> Option<EquilibriumReport> {
-    let last = position.last?;
-    last.certificate.map(|certificate| EquilibriumReport {
-        certificate,
-        lowest_eigenvalue,
-        newton_iterations: work.iterations,
-        points: position.points,
-        floor: last.floor,
-        history: last.history,
-        states,
-        error,
+/// Returns an error for the first load that is not large compared with the residual.
+fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProblem> {
+    let loads = assembly.scene.loads.iter().enumerate();
+    loads.into_iter().find_map(|(i, load)| {
+        let factor = last.state.controls[assembly.load_controls()[i]];
+        let (size, residual, unit) = match load.resultant(&assembly.scene) {
+            Resultant::Force(force) => (force.norm(), last.residual_force_pn, "pN"),
+            Resultant::Couple(couple) => (couple.norm(), last.residual_torque_pn_nm, "pN nm"),
+        };
+        let size = size * factor.abs();
+        let is_lost = size > 0.0 && residual > RESOLVED * size;
+        is_lost.then(|| {
+            let rule = format!(
+                "is below 100 times the residual of {residual:.1e} {unit}, so the equilibrium does not \
+                 resolve its effect; use a larger load"
+            );
+            load.problem(i, rule)
+        })
     })
 }

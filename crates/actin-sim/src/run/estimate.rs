@@ -40,6 +40,11 @@ pub struct LongestStep {
 }
 
 impl Estimate {
+    /// Number of records, including the first and the last.
+    pub(crate) fn records(&self) -> u64 {
+        self.steps / self.steps_between_records + 1
+    }
+
     pub(super) fn record_times(&self) -> RecordTimes {
         RecordTimes {
             every_ns: self.record_every_ns,

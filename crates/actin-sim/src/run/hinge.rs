@@ -10,7 +10,7 @@ use actin_assembly::Ramp;
 use actin_mechanics::{Drive, Interaction, State, UnitQuaternion, rotation};
 use std::f64::consts::FRAC_PI_4;
 use std::fmt;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Half of the angle (rad) above which a hinge may have jumped between equilibria.
 const LARGEST_HALF_ANGLE: f64 = FRAC_PI_4;
@@ -83,8 +83,10 @@ impl Hinge {
     }
 }
 
+/// Drive of a motion: the path of its scene, with a monitor of the hinges after each change of the state.
 #[derive(Clone, Debug)]
 pub(super) struct HingeWatch {
+    ramp: Option<Ramp>,
     hinges: Vec<Hinge>,
     seen: Arc<Mutex<HingeHistory>>,
 }
@@ -99,6 +101,7 @@ struct HingeHistory {
 impl HingeWatch {
     pub(super) fn new(assembly: &Assembly) -> Self {
         let watch = Self {
+            ramp: Ramp::from_assembly(assembly),
             hinges: Hinge::all(assembly),
             seen: Arc::default(),
         };
@@ -107,49 +110,42 @@ impl HingeWatch {
     }
 
     pub(super) fn begin(&self, state: &State) {
-        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
-        seen.last = self.hinges.iter().map(|h| h.rotation(state)).collect();
+        self.seen().last = self.hinges.iter().map(|h| h.rotation(state)).collect();
     }
 
-    /// Combines the monitor with a ramp into one drive. Returns the ramp alone if the assembly has
-    /// no hinges.
-    pub(super) fn beside(&self, ramp: Option<Ramp>) -> Option<Box<dyn Drive>> {
-        if self.hinges.is_empty() {
-            return ramp.map(|ramp| Box::new(ramp) as Box<dyn Drive>);
-        }
-        let watch = self.clone();
-        Some(Box::new(MonitoredDrive { ramp, watch }))
+    /// Returns the drive that shares the history of this monitor; `None` without a path and hinges.
+    pub(super) fn to_drive(&self) -> Option<Box<dyn Drive>> {
+        let is_needed = self.ramp.is_some() || !self.hinges.is_empty();
+        is_needed.then(|| Box::new(self.clone()) as Box<dyn Drive>)
+    }
+
+    /// Time (ns) after which all controls are constant.
+    pub(super) fn duration_ns(&self) -> f64 {
+        self.ramp.as_ref().map_or(0.0, Ramp::duration)
     }
 
     pub(super) fn slip(&self) -> Option<HingeSlip> {
-        let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
-        seen.slip
+        self.seen().slip
     }
 
-    fn look(&self, state: &State, time_ns: f64) {
-        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
-        for (i, hinge) in self.hinges.iter().enumerate() {
-            let now = hinge.rotation(state);
-            let before = std::mem::replace(&mut seen.last[i], now);
-            if has_passed(before, now) && seen.slip.is_none() {
-                seen.slip = Some(hinge.slip(before, At::Time(time_ns)));
-            }
-        }
+    fn seen(&self) -> MutexGuard<'_, HingeHistory> {
+        self.seen.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-#[derive(Debug)]
-struct MonitoredDrive {
-    ramp: Option<Ramp>,
-    watch: HingeWatch,
-}
-
-impl Drive for MonitoredDrive {
+impl Drive for HingeWatch {
     fn place(&self, state: &mut State, time: f64) {
         if let Some(ramp) = &self.ramp {
             ramp.place(state, time);
         }
-        self.watch.look(state, time);
+        let mut seen = self.seen();
+        for (i, hinge) in self.hinges.iter().enumerate() {
+            let now = hinge.rotation(state);
+            let before = std::mem::replace(&mut seen.last[i], now);
+            if has_passed(before, now) && seen.slip.is_none() {
+                seen.slip = Some(hinge.slip(before, At::Time(time)));
+            }
+        }
     }
 
     fn work_of_controls(

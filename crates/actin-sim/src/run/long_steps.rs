@@ -1,7 +1,7 @@
 //! Default steps of thermal overdamped motion of rods and quasi-harmonic monomers. Records and
 //! changes in time limit the step, not the relaxation of stretch and shear.
 
-use crate::scene::{Brownian as Task, Filament, Resultant, SceneProblem, Setting};
+use crate::scene::{Brownian as Task, Resultant, SceneProblem, Setting};
 use crate::{Assembly, Resolution};
 use actin_assembly::COARSEST;
 
@@ -54,8 +54,7 @@ pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, S
             Resolution::Rod { segment_nm } => segment_nm,
             Resolution::Ellipsoids { .. } => {
                 let filament = assembly.filament_of_section(section);
-                let filament = assembly.scene.filament_at(filament);
-                let whole = filament.map_or(f64::INFINITY, Filament::length_nm);
+                let whole = assembly.written(filament).length_nm();
                 (whole / FOLLOWED).min(LONGEST_FOLLOWED_NM)
             }
         };
@@ -81,11 +80,7 @@ fn of_length(
 ) -> Result<f64, SceneProblem> {
     let filament = assembly.filament_of_section(section);
     let across = assembly.cylinder(&task.drag, filament)?.across();
-    let first = assembly.filaments[filament].sections.start;
-    let written = assembly.scene.filament_at(filament);
-    let Some(model) = written.map(|f| f.sections[section - first].rod_model(&f.rod)) else {
-        return Ok(f64::INFINITY);
-    };
+    let model = assembly.rod_model_of(section);
     let bend = model.material.rigidities().bend;
     let bend = bend.x.min(bend.y);
     let force = tension(assembly, filament, length);

@@ -1,18 +1,13 @@
 //! Runs of scenes: equilibria and motions in time, with their records.
 
-mod bound;
 mod brownian;
 mod dynamics;
 mod equilibrium;
 mod estimate;
 mod hinge;
 mod long_steps;
-mod lost_load;
-mod model_error;
 mod outcome;
-mod periodic;
 mod plan;
-mod points;
 mod record_stream;
 mod record_summary;
 mod recorder;
@@ -30,9 +25,10 @@ pub use brownian::RelaxationTimes;
 pub(crate) use estimate::composition_of;
 pub use estimate::{Estimate, LongestStep, composition};
 pub use hinge::HingeSlip;
-pub(crate) use model_error::{MeasureModelError, ModelErrorResult};
-pub use model_error::{ModelError, Scatter};
-pub use outcome::{EquilibriumReport, FailedRun, Failure, Outcome, RunError, Status};
+pub use outcome::{
+    EquilibriumReport, FailedRun, Failure, ModelError, Outcome, RunError, Scatter, Status,
+};
+pub(crate) use outcome::{MeasureModelError, ModelErrorResult};
 pub use plan::Plan;
 pub use record_summary::{RecordSummary, RunStatistics};
 pub(crate) use recorder::record;
@@ -40,6 +36,7 @@ pub use records::{
     EnergyTotals, Record, RecordIter, Records, RecordsError, Row, StoredRecord, Trajectory,
 };
 pub use rest::SaddlePush;
+pub(crate) use sink::InterruptibleTrajectory;
 pub use sink::{
     MotionPosition, PathPosition, Progress, ResolutionSwitch, RunPosition, SavedRun, Sink,
     SolveReport,
@@ -52,6 +49,7 @@ pub use unknowns::newton as solver;
 pub(crate) use unknowns::order;
 
 use crate::scene::{SceneProblem, Task};
+use recorder::Recorder;
 use sink::Clock;
 
 impl Plan<'_> {
@@ -70,10 +68,12 @@ impl Plan<'_> {
         let clock = Clock::new(saved.as_ref(), self.set_up_s());
         let (mut outcome, failure) = match (&assembly.scene.task, self.estimate()) {
             (Task::Dynamics(dynamics), Some(estimate)) => {
-                dynamics::run(assembly, dynamics, estimate, saved, clock, sink)?
+                let recorder = Recorder::new(assembly, dynamics, saved, clock, sink);
+                dynamics::run(assembly, dynamics, estimate, recorder)?
             }
             (Task::Brownian(task), Some(estimate)) => {
-                brownian::run(assembly, task, estimate, saved, clock, sink)?
+                let recorder = Recorder::new(assembly, &task.to_dynamics(), saved, clock, sink);
+                brownian::run(assembly, task, estimate, recorder)?
             }
             (Task::Equilibrium(settings), _) => {
                 equilibrium::run(assembly, (settings, model_error), saved, clock, sink)?

@@ -1,13 +1,10 @@
 //! Outcome of a run: status, cost, warnings and failures.
 
-use super::model_error::ModelErrorResult;
-use super::record_summary::StateWarnings;
 use super::slip::TurnLoss;
 use super::states::StableStates;
-use super::{HingeSlip, SaddlePush, Slip, StepError};
-use super::{ModelError, Scatter};
-use crate::scene::SceneProblem;
-use crate::{LawExtrapolation, LinkerEvent, ModelLimitExceeded, UnstableTwist};
+use super::{HingeSlip, RunStatistics, SaddlePush, Slip, StepError};
+use crate::scene::{Quantity, SceneProblem};
+use crate::{Assembly, LawExtrapolation, LinkerEvent, ModelLimitExceeded, Record, UnstableTwist};
 use actin_assembly::Note;
 use actin_equilibrium::{Certificate, PathFailure, Residual};
 use actin_integrate::RunFailure;
@@ -16,7 +13,7 @@ use std::fmt;
 use thiserror::Error;
 
 /// Status at the end of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// The equilibrium or the stop rule was reached.
@@ -27,11 +24,12 @@ pub enum Status {
     /// [`Failure`].
     Failed,
     /// The run was interrupted and can be resumed from its last record.
+    #[default]
     Interrupted,
 }
 
 /// Status and cost of a run.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Status at the end.
     pub status: Status,
@@ -81,41 +79,18 @@ impl Outcome {
     pub fn new(status: Status, wall_s: f64) -> Self {
         Self {
             status,
-            steps: 0,
-            force_evaluations: 0,
-            time_step_ns: None,
-            largest_frequency_rad_per_ns: None,
-            equilibrium: None,
-            at_rest: None,
-            begun_with_pn_nm: None,
-            largest_kinetic_pn_nm: 0.0,
-            saddles_left: 0,
-            pushes: Vec::new(),
-            events: Vec::new(),
-            jumps: 0,
-            beyond_use: Vec::new(),
-            beyond_range: Vec::new(),
-            unstable_twist: Vec::new(),
-            step_errors: Vec::new(),
-            plan_notes: Vec::new(),
-            failure: String::new(),
             wall_s,
+            ..Self::default()
         }
     }
 
-    pub(super) fn with(self, remarks: StateWarnings) -> Self {
-        let StateWarnings {
-            beyond_use,
-            beyond_range,
-            unstable_twist,
-            steps,
-        } = remarks;
-        let time_step_ns = self.time_step_ns.unwrap_or_default();
+    /// Adds the warnings about all records of the run.
+    pub(super) fn with_statistics(self, assembly: &Assembly, all: RunStatistics) -> Self {
         Self {
-            beyond_use,
-            beyond_range,
-            unstable_twist,
-            step_errors: steps.errors(time_step_ns),
+            beyond_use: all.beyond_use,
+            beyond_range: all.ranges.end(assembly),
+            unstable_twist: all.twist.end(),
+            step_errors: all.steps.errors(self.time_step_ns.unwrap_or_default()),
             ..self
         }
     }
@@ -173,6 +148,61 @@ pub struct EquilibriumReport {
     pub states: Option<StableStates>,
     /// Model error and scatter of the requested quantity, or the reason for their absence.
     pub error: Option<ModelErrorResult>,
+}
+
+/// Model error and scatter of a quantity, or the reason for their absence.
+pub(crate) type ModelErrorResult = Result<(ModelError, Scatter), SceneProblem>;
+
+/// Measurement of the model error of a quantity in the last record of an equilibrium.
+pub(crate) type MeasureModelError = fn(&Assembly, &Record, Quantity) -> ModelErrorResult;
+
+/// Error of a quantity of an equilibrium against every monomer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModelError {
+    /// Quantity with this error.
+    pub quantity: Quantity,
+    /// Value in the [unit](Quantity::unit) of the quantity; the size of a vector.
+    pub value: f64,
+    /// Correction in the same unit: the value with every monomer minus `value`.
+    pub error: f64,
+    /// Size of the difference divided by the size with every monomer. The difference of vectors includes their direction.
+    pub relative: f64,
+}
+
+impl ModelError {
+    pub(crate) fn note(&self, scatter: &Scatter) -> String {
+        let size = self.corrected().abs().max(f64::MIN_POSITIVE);
+        format!(
+            "{} is {}, and {} in the all-monomer model (error {:.2} %); filaments with {} sampled bonds per interface differ \
+             from the all-monomer model by {:+.2} % on average, with a root mean square difference of {:.2} %",
+            self.quantity,
+            self.quantity.show(self.value),
+            self.quantity.show(self.corrected()),
+            100.0 * self.relative,
+            scatter.bonds,
+            100.0 * scatter.shift / size,
+            100.0 * scatter.deviation / size
+        )
+    }
+
+    /// Returns the value with every monomer.
+    fn corrected(&self) -> f64 {
+        self.value + self.error
+    }
+}
+
+/// Scatter of a quantity between filaments with sampled bonds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scatter {
+    /// Sampled bonds per interface.
+    pub bonds: usize,
+    /// Number of filaments.
+    pub filaments: u64,
+    /// Mean over the filaments minus the value with quadrature bonds, in the unit of the quantity.
+    pub shift: f64,
+    /// Root mean square difference from the value with quadrature bonds, in the same unit. The difference of vectors
+    /// includes their direction.
+    pub deviation: f64,
 }
 
 /// Error of a run without a valid result.

@@ -1,11 +1,10 @@
 //! Plan of a run.
 
 use super::brownian::{self, RelaxationTimes, relaxation_times};
-use super::points::check_points;
 use super::{Estimate, dynamics};
-use crate::Assembly;
-use crate::observe::Observers;
+use crate::observe;
 use crate::scene::{Scene, SceneProblem, Task};
+use crate::{Assembly, memory};
 use actin_assembly::Note;
 use std::time::Instant;
 
@@ -46,7 +45,7 @@ impl<'a> Plan<'a> {
         assembly.check_start()?;
         let estimate = estimate(assembly)?;
         let times = estimate.as_ref().map(Estimate::record_times);
-        Observers::new(assembly).check(assembly, times.as_ref())?;
+        observe::check(assembly, times.as_ref())?;
         let mut scene = assembly.scene.clone();
         if let Some(estimate) = &estimate {
             estimate.resolve(&mut scene);
@@ -112,7 +111,12 @@ fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, SceneProblem> {
         Task::Brownian(brownian) => brownian::estimate(assembly, brownian).map(Some),
         Task::Equilibrium(settings) => {
             assembly.check_slip()?;
-            check_points(assembly, settings).map(|()| None)
+            let fewest = assembly.drive.stages() as f64 / settings.largest_step;
+            let key = ("task.largest_step", format!("{:?}", settings.largest_step));
+            memory::check_records(assembly, fewest, key, |bodies| {
+                format!("{fewest:.2e} equilibria of {bodies} bodies and more need")
+            })?;
+            Ok(None)
         }
     }
 }

@@ -1,22 +1,19 @@
 //! Record stream of a run with running diagnostics, without storing the records.
 
 use super::hinge::slip_between;
-use super::record_summary::{RecordSummary, StateWarnings};
 use super::slip::TurnLoss;
-use super::step_check::StepComparisons;
-use super::{Progress, Record, RunPosition, Sink};
+use super::{Record, RecordSummary, RunPosition, Sink};
 use crate::Assembly;
 use crate::At;
-use crate::observe::Observers;
 use actin_mechanics::State;
 
 /// Passes records to a sink while checking for lost twist.
 pub(super) struct RecordStream<'a> {
     pub(super) sink: &'a mut dyn Sink,
     assembly: &'a Assembly,
-    observers: Observers,
-    recorded: RecordSummary,
-    lost: Option<TurnLoss>,
+    pub(super) recorded: RecordSummary,
+    /// Turns lost since the last record.
+    pub(super) lost: Option<TurnLoss>,
 }
 
 impl<'a> RecordStream<'a> {
@@ -28,7 +25,6 @@ impl<'a> RecordStream<'a> {
         Self {
             sink,
             assembly,
-            observers: Observers::new(assembly),
             recorded: recorded.unwrap_or_else(|| RecordSummary::new(assembly)),
             lost: None,
         }
@@ -56,7 +52,7 @@ impl<'a> RecordStream<'a> {
 
     /// Accepts the record of a failed attempt without a check of its twist.
     pub(super) fn take_unchecked(&mut self, record: Record) {
-        let record = self.recorded.push((self.assembly, &self.observers), record);
+        let record = self.recorded.push(self.assembly, record);
         self.sink.record(record);
     }
 
@@ -71,44 +67,7 @@ impl<'a> RecordStream<'a> {
         self.recorded.last.as_ref()
     }
 
-    pub(super) fn step_comparisons(&mut self) -> &mut StepComparisons {
-        &mut self.recorded.carried.steps
-    }
-
-    pub(super) fn recorded(&self) -> &RecordSummary {
-        &self.recorded
-    }
-
-    pub(super) fn lose(&mut self, lost: TurnLoss) {
-        self.lost = Some(lost);
-    }
-
-    pub(super) fn has_lost(&self) -> bool {
-        self.lost.is_some()
-    }
-
-    pub(super) fn lost(&mut self) -> Option<TurnLoss> {
-        self.lost.take()
-    }
-
-    pub(super) fn into_remarks(self) -> StateWarnings {
-        self.recorded.into_warnings(self.assembly)
-    }
-
     pub(super) fn checkpoint(&mut self, position: &RunPosition, wall_s: f64) {
         self.sink.checkpoint(position, &self.recorded, wall_s);
-    }
-
-    pub(super) fn checkpoint_behind(
-        &mut self,
-        position: &RunPosition,
-        recorded: &RecordSummary,
-        wall_s: f64,
-    ) {
-        self.sink.checkpoint(position, recorded, wall_s);
-    }
-
-    pub(super) fn progress(&mut self, progress: &Progress) {
-        self.sink.progress(progress);
     }
 }

@@ -3,8 +3,8 @@
 use super::Record;
 use super::slip::LinkWatch;
 use super::step_check::StepComparisons;
-use crate::observe::{Memory, Observers, View};
-use crate::{Assembly, LawExtrapolation, ModelLimitExceeded, UnstableTwist};
+use crate::observe::{Memory, View, observed_values};
+use crate::{Assembly, ModelLimitExceeded};
 use actin_assembly::{RangeWatch, TwistRecords, worst};
 use serde::{Deserialize, Serialize};
 
@@ -23,18 +23,10 @@ pub struct RunStatistics {
     /// Number of records.
     pub count: usize,
     pub(super) links: LinkWatch,
-    beyond_use: Vec<ModelLimitExceeded>,
-    ranges: RangeWatch,
-    twist: TwistRecords,
-    observed: Memory,
-    pub(super) steps: StepComparisons,
-}
-
-#[derive(Debug)]
-pub(super) struct StateWarnings {
     pub(super) beyond_use: Vec<ModelLimitExceeded>,
-    pub(super) beyond_range: Vec<LawExtrapolation>,
-    pub(super) unstable_twist: Vec<UnstableTwist>,
+    pub(super) ranges: RangeWatch,
+    pub(super) twist: TwistRecords,
+    observed: Memory,
     pub(super) steps: StepComparisons,
 }
 
@@ -53,7 +45,7 @@ impl RecordSummary {
                 beyond_use: Vec::new(),
                 ranges: RangeWatch::new(assembly),
                 twist: TwistRecords::new(assembly),
-                observed: Observers::new(assembly).memory(),
+                observed: Memory::new(assembly),
                 steps: StepComparisons::default(),
             },
             last: None,
@@ -67,13 +59,8 @@ impl RecordSummary {
         recorded.carried.links = self.carried.links.clone();
         recorded.carried.observed = self.carried.observed.clone();
         recorded.carried.links.follow(assembly, &first);
-        recorded.push((assembly, &Observers::new(assembly)), first);
+        recorded.push(assembly, first);
         recorded
-    }
-
-    /// Returns the last record.
-    pub fn last(&self) -> Option<&Record> {
-        self.last.as_ref()
     }
 
     /// Returns the number of records.
@@ -81,15 +68,11 @@ impl RecordSummary {
         self.carried.count
     }
 
-    pub(super) fn push(
-        &mut self,
-        (assembly, observers): (&Assembly, &Observers),
-        mut record: Record,
-    ) -> &Record {
+    pub(super) fn push(&mut self, assembly: &Assembly, mut record: Record) -> &Record {
         let all = &mut self.carried;
         let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
         let view = View::new(assembly, (record.at, &record.state), energies);
-        let observed = observers.row(&view, &mut all.observed);
+        let observed = observed_values(&view, &mut all.observed);
         record.row.booked = assembly.booked(&record.state);
         record.row.observed = observed;
         let beyond = assembly.beyond_use(&record.state);
@@ -98,16 +81,6 @@ impl RecordSummary {
         all.twist.add(assembly, &record.state);
         all.count += 1;
         self.last.insert(record)
-    }
-
-    pub(super) fn into_warnings(self, assembly: &Assembly) -> StateWarnings {
-        let carried = self.carried;
-        StateWarnings {
-            beyond_use: carried.beyond_use,
-            beyond_range: carried.ranges.end(assembly),
-            unstable_twist: carried.twist.end(),
-            steps: carried.steps,
-        }
     }
 }
 

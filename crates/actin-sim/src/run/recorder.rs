@@ -2,28 +2,30 @@
 
 use super::hinge::HingeWatch;
 use super::record_stream::RecordStream;
-use super::rest::{RestJudge, SaddlePush, is_saddle};
+use super::rest::{RestJudge, SaddlePush, is_saddle, saddle};
 use super::sink::{Clock, MotionPosition, ResolutionSwitch, SavedRun};
 use super::slip::TurnLoss;
 use super::step_check::StepCheck;
-use super::{Progress, Record, RecordSummary, Row, RunPosition, Sink};
+use super::{
+    Estimate, Failure, Outcome, Progress, Record, RecordSummary, Row, RunPosition, Sink, Status,
+};
 use crate::At;
 use crate::scene::{Dynamics, Task};
-use crate::{Assembly, EnergyExchange, LinkerEvent};
-use actin_assembly::{Log, Ramp};
+use crate::{Assembly, LinkerEvent};
+use actin_assembly::Log;
 use actin_equilibrium::Certificate;
 use actin_integrate::{
     Checkpoint, DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
     Stepper,
 };
-use actin_mechanics::System;
+use actin_mechanics::{Split, System};
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Observer that records a motion and perturbs it at saddles.
 pub(super) struct Recorder<'a> {
-    pub(super) taken: RecordStream<'a>,
-    pub(super) pushes: Vec<SaddlePush>,
+    records: RecordStream<'a>,
+    pushes: Vec<SaddlePush>,
     end_ns: f64,
     /// End of the path (ns); the motion is not checked for rest before.
     rest_from_ns: f64,
@@ -36,30 +38,19 @@ pub(super) struct Recorder<'a> {
     /// They are unknown if the run was resumed since.
     last_good: Option<(Checkpoint, Option<RecordSummary>)>,
     /// A record was made since `last_good`.
-    is_behind: bool,
+    has_new_record: bool,
     is_interrupted: bool,
     assembly: &'a Assembly,
     /// Log of linker events.
     log: Log,
     hinges: HingeWatch,
     /// Largest kinetic energy at a check (pN nm), set at the end.
-    pub(super) largest_kinetic_pn_nm: f64,
-    pub(super) behind_switch: Option<ResolutionSwitch>,
+    largest_kinetic_pn_nm: f64,
+    behind_switch: Option<ResolutionSwitch>,
     /// Comparison with shorter steps.
     pub(super) step_check: Option<StepCheck<'a>>,
     /// Steps between queries whether to leave the motion.
-    look_every: u64,
-}
-
-pub(super) enum Ending {
-    /// Interrupted; can be resumed.
-    Interrupted(RunOutcome),
-    /// Completed, with the certificate of a state at rest.
-    Ended(RunOutcome, Option<Certificate>),
-    /// Turns were lost; with the step of the last good state.
-    Slipped(TurnLoss, u64),
-    /// The state diverged.
-    Failed(RunFailure),
+    leave_every: u64,
 }
 
 impl<'a> Recorder<'a> {
@@ -84,15 +75,16 @@ impl<'a> Recorder<'a> {
             None => (None, Vec::new(), Vec::new()),
             Some(motion) => (Some(motion.checkpoint), motion.pushes, motion.events),
         };
+        let hinges = HingeWatch::new(assembly);
         Self {
-            taken: RecordStream::new(assembly, recorded, sink),
+            records: RecordStream::new(assembly, recorded, sink),
             pushes,
             end_ns: dynamics.duration_ns,
-            rest_from_ns: Ramp::from_assembly(assembly).map_or(0.0, |ramp| ramp.duration()),
+            rest_from_ns: hinges.duration_ns(),
             most_pushes: dynamics.leave_saddles,
             clock,
             judge: RestJudge::new(assembly, dynamics),
-            is_behind: position.is_none(),
+            has_new_record: position.is_none(),
             last_good: position.as_ref().map(|checkpoint| {
                 let good = Checkpoint {
                     here: checkpoint.last_good.clone(),
@@ -104,9 +96,9 @@ impl<'a> Recorder<'a> {
             is_interrupted: false,
             assembly,
             log: Arc::new(Mutex::new(events)),
-            hinges: HingeWatch::new(assembly),
+            hinges,
             behind_switch,
-            look_every: match assembly.scene.task {
+            leave_every: match assembly.scene.task {
                 // Overdamped steps are long.
                 Task::Brownian(_) => 1,
                 _ => DEFAULT_CHECK_EVERY,
@@ -118,62 +110,76 @@ impl<'a> Recorder<'a> {
 
     /// Installs the path of the scene as the drive of `system` and returns its duration (ns).
     pub(super) fn drive(&self, system: &mut System) -> f64 {
-        if let Some(drive) = self.hinges.beside(Ramp::from_assembly(self.assembly)) {
+        if let Some(drive) = self.hinges.to_drive() {
             system.set_drive(drive);
         }
         self.rest_from_ns
     }
 
-    pub(super) fn let_happen(&self, system: &mut System) {
+    /// Runs the motion of `system`. Without a stepper, the method of `run` makes the steps.
+    pub(super) fn run(
+        mut self,
+        estimate: &Estimate,
+        (run, stepper): (&Run, Option<&mut dyn Stepper>),
+        mut system: System,
+    ) -> (Outcome, Option<Failure>) {
+        // Loads have their initial factors. After a switch of cells the initial energy is unknown.
+        let is_whole = self.behind_switch.is_none();
+        let begun_with_pn_nm = is_whole.then(|| system.total_energy());
         if let Some(kinetics) = &self.assembly.kinetics {
             system.set_step_end(kinetics.event_process(&self.log));
         }
+        if let Some(energy_balance) = self.assembly.energy_balance {
+            system.track_energy_balance(energy_balance);
+        }
+        let result = self.execute(run, stepper, &mut system);
+        let mut outcome = Outcome {
+            force_evaluations: system.force_evaluations(),
+            time_step_ns: Some(estimate.time_step_ns),
+            begun_with_pn_nm,
+            ..Outcome::new(Status::Failed, 0.0)
+        };
+        let failure = self.end(result, &mut system, &mut outcome);
+        outcome.wall_s = self.clock.wall_s();
+        outcome.largest_kinetic_pn_nm = self.largest_kinetic_pn_nm;
+        outcome.saddles_left = self.pushes.len();
+        // Later events belong to no record.
+        outcome.events = self.events_until(outcome.steps);
+        outcome.pushes = self.pushes;
+        let statistics = self.records.recorded.carried;
+        (outcome.with_statistics(self.assembly, statistics), failure)
     }
 
-    pub(super) fn events(&self) -> Vec<LinkerEvent> {
-        let log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
-        log.clone()
-    }
-
-    fn events_until(&self, step: u64) -> Vec<LinkerEvent> {
-        let mut events = self.events();
-        events.retain(|event| event.step <= step);
-        events
-    }
-
-    pub(super) fn execute_steps(
+    fn execute(
         &mut self,
         run: &Run,
-        stepper: &mut dyn Stepper,
+        stepper: Option<&mut dyn Stepper>,
         system: &mut System,
     ) -> Result<RunOutcome, RunFailure> {
-        match self.position.take() {
-            None => run.execute_steps(stepper, system, &mut [self]),
-            Some(checkpoint) => {
-                self.begin_hinges(&checkpoint, system);
+        let checkpoint = self.position.take();
+        if let Some(checkpoint) = &checkpoint {
+            let mut state = system.state().clone();
+            state.set_motion(&checkpoint.here.motion);
+            self.hinges.begin(&state);
+        }
+        match (checkpoint, stepper) {
+            (None, None) => run.execute(system, &mut [self]),
+            (None, Some(stepper)) => run.execute_steps(stepper, system, &mut [self]),
+            (Some(checkpoint), None) => run.resume(&checkpoint, system, &mut [self]),
+            (Some(checkpoint), Some(stepper)) => {
                 run.resume_steps(&checkpoint, stepper, system, &mut [self])
             }
         }
     }
 
-    pub(super) fn execute(
-        &mut self,
-        run: &Run,
-        system: &mut System,
-    ) -> Result<RunOutcome, RunFailure> {
-        match self.position.take() {
-            None => run.execute(system, &mut [self]),
-            Some(checkpoint) => {
-                self.begin_hinges(&checkpoint, system);
-                run.resume(&checkpoint, system, &mut [self])
-            }
-        }
-    }
-
-    fn begin_hinges(&mut self, checkpoint: &Checkpoint, system: &System) {
-        let mut state = system.state().clone();
-        state.set_motion(&checkpoint.here.motion);
-        self.hinges.begin(&state);
+    fn events_until(&self, step: u64) -> Vec<LinkerEvent> {
+        let mut events = self
+            .log
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone();
+        events.retain(|event| event.step <= step);
+        events
     }
 
     pub(super) fn begun_with_pn_nm(&self) -> f64 {
@@ -181,53 +187,76 @@ impl<'a> Recorder<'a> {
         self.behind_switch.map_or_else(built, |s| s.energy_pn_nm)
     }
 
-    /// Returns `true` if the motion started with the scene and not after a switch of cells.
-    pub(super) fn is_whole(&self) -> bool {
-        self.behind_switch.is_none()
-    }
-
-    pub(super) fn wall_s(&self) -> f64 {
-        self.clock.wall_s()
-    }
-
-    /// Determines the end of the motion. After lost turns `system` returns to the last good state.
-    /// A checkpoint is kept after lost turns and at a saddle.
-    pub(super) fn end(
+    /// Adds the end of the motion to `outcome`. After lost turns `system` returns to the last good
+    /// state. A checkpoint is kept after lost turns and at a saddle.
+    fn end(
         &mut self,
-        outcome: Result<RunOutcome, RunFailure>,
+        result: Result<RunOutcome, RunFailure>,
         system: &mut System,
-    ) -> Ending {
-        let outcome = match outcome {
-            Ok(outcome) => outcome,
-            Err(failure) => return Ending::Failed(failure),
+        outcome: &mut Outcome,
+    ) -> Option<Failure> {
+        let end = match result {
+            Ok(end) => end,
+            Err(failure) => {
+                outcome.steps = failure.last_good_step;
+                let body = self.assembly.describe(failure.body);
+                return Some(Failure::Diverged { failure, body });
+            }
         };
-        if let Some(lost) = self.taken.lost() {
-            let step = self.last_good.as_ref().map_or(0, |good| good.0.here.step);
-            if let Some((good, _)) = self.last_good.take() {
-                system.state_mut().set_motion(&good.here.motion);
-                // The slipped state was not recorded.
-                self.keep(good);
-            }
-            return Ending::Slipped(lost, step);
+        if let Some(lost) = self.records.lost.take() {
+            return Some(self.return_to_last_good(lost, system, outcome));
         }
+        outcome.steps = end.steps;
+        outcome.force_evaluations = end.force_evaluations;
         if self.is_interrupted {
-            return Ending::Interrupted(outcome);
+            outcome.status = Status::Interrupted;
+            return None;
         }
-        let certificate = self.certificate(outcome.reason, system);
-        if certificate.as_ref().is_some_and(is_saddle) {
-            // The last record ended the run and belongs after the last good state. Without an
-            // earlier record since the run was resumed, the existing checkpoint stays.
-            if let Some((good, Some(recorded))) = self.last_good.take() {
-                let position = self.position_at(good);
-                let wall_s = self.wall_s();
-                self.taken.checkpoint_behind(&position, &recorded, wall_s);
+        outcome.status = match end.reason {
+            Reason::Converged => Status::Converged,
+            _ => Status::Completed,
+        };
+        outcome.at_rest = self.certificate(end.reason, system);
+        let certificate = outcome.at_rest.filter(is_saddle)?;
+        Some(self.end_on_saddle(&certificate))
+    }
+
+    fn return_to_last_good(
+        &mut self,
+        lost: TurnLoss,
+        system: &mut System,
+        outcome: &mut Outcome,
+    ) -> Failure {
+        if let Some((good, _)) = self.last_good.take() {
+            outcome.steps = good.here.step;
+            system.state_mut().set_motion(&good.here.motion);
+            // The slipped state was not recorded.
+            self.keep(good);
+        }
+        let place = format!("at {:.4} ns, ", lost.at().value());
+        Failure::from_turn_loss(lost, place)
+    }
+
+    fn end_on_saddle(&mut self, certificate: &Certificate) -> Failure {
+        // The last record ended the run and belongs after the last good state. Without an
+        // earlier record since the run was resumed, the existing checkpoint stays.
+        if let Some((good, Some(recorded))) = self.last_good.take() {
+            let position = self.position_at(good);
+            let sink = &mut self.records.sink;
+            sink.checkpoint(&position, &recorded, self.clock.wall_s());
+        }
+        let remedy = match self.most_pushes {
+            0 => {
+                "with leave_saddles: 1 or more the motion is pushed off saddles and continues; an \
+                 imperfection of the filament, such as (amplitude_nm: 0.01, seed: 1), keeps it off them"
             }
-        }
-        Ending::Ended(outcome, certificate)
+            _ => "more pushes or a longer duration_ns may lead off it",
+        };
+        Failure::Saddle(saddle(certificate, self.most_pushes, remedy))
     }
 
     fn certificate(&mut self, reason: Reason, system: &System) -> Option<Certificate> {
-        let record = self.taken.last()?;
+        let record = self.records.last()?;
         let judge = self
             .judge
             .as_mut()
@@ -236,17 +265,17 @@ impl<'a> Recorder<'a> {
         Some(nearest.certificate)
     }
 
-    fn look_at_hinges(&mut self) -> ControlFlow<()> {
+    fn check_hinges(&mut self) -> ControlFlow<()> {
         let Some(slip) = self.hinges.slip() else {
             return ControlFlow::Continue(());
         };
-        self.taken.lose(TurnLoss::Hinge(slip));
+        self.records.lost = Some(TurnLoss::Hinge(slip));
         ControlFlow::Break(())
     }
 
     fn keep(&mut self, checkpoint: Checkpoint) {
         let position = self.position_at(checkpoint);
-        self.taken.checkpoint(&position, self.clock.wall_s());
+        self.records.checkpoint(&position, self.clock.wall_s());
     }
 
     fn position_at(&self, checkpoint: Checkpoint) -> RunPosition {
@@ -261,12 +290,17 @@ impl<'a> Recorder<'a> {
 
 impl Observer for Recorder<'_> {
     fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()> {
-        self.look_at_hinges()?;
-        if !self.taken.take(record(moment)) {
+        self.check_hinges()?;
+        if !self.records.take(record(moment)) {
             return ControlFlow::Break(());
         }
-        self.is_behind = true;
-        self.taken.progress(&progress(moment, self.end_ns));
+        self.has_new_record = true;
+        self.records.sink.progress(&Progress {
+            at: At::Time(moment.time),
+            end: self.end_ns,
+            steps: moment.step,
+            residual_force_pn: moment.residual().force,
+        });
         ControlFlow::Continue(())
     }
 
@@ -274,7 +308,7 @@ impl Observer for Recorder<'_> {
         if self.most_pushes == 0 || time < self.rest_from_ns {
             return false;
         }
-        let (Some(judge), Some(record)) = (&mut self.judge, self.taken.last()) else {
+        let (Some(judge), Some(record)) = (&mut self.judge, self.records.last()) else {
             return false;
         };
         let nearest = judge.equilibrium(record, system, at_rest);
@@ -295,20 +329,24 @@ impl Observer for Recorder<'_> {
     }
 
     fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
-        self.look_at_hinges()?;
+        self.check_hinges()?;
         if let Some(check) = &mut self.step_check {
-            check.compare(pause.state(), pause.step, self.taken.step_comparisons());
+            check.compare(
+                pause.state(),
+                pause.step,
+                &mut self.records.recorded.carried.steps,
+            );
         }
-        if self.is_behind {
+        if self.has_new_record {
             // Only saddles are left without their record; a heat bath has none.
-            let recorded = self.judge.as_ref().map(|_| self.taken.recorded().clone());
+            let recorded = self.judge.as_ref().map(|_| self.records.recorded.clone());
             self.last_good = Some((pause.checkpoint(), recorded));
-            self.is_behind = false;
+            self.has_new_record = false;
         }
-        let is_look = pause.step.is_multiple_of(self.look_every);
-        self.is_interrupted = is_look && self.taken.sink.is_left(pause.step, pause.state())
-            || self.taken.sink.is_interrupted();
-        if self.is_interrupted || self.taken.sink.is_checkpoint_due() {
+        let may_leave = pause.step.is_multiple_of(self.leave_every);
+        self.is_interrupted = may_leave && self.records.sink.is_left(pause.step, pause.state())
+            || self.records.sink.is_interrupted();
+        if self.is_interrupted || self.records.sink.is_checkpoint_due() {
             self.keep(pause.checkpoint());
         }
         if self.is_interrupted {
@@ -328,28 +366,12 @@ impl Observer for Recorder<'_> {
     }
 }
 
-fn progress(moment: &mut Moment<'_>, end_ns: f64) -> Progress {
-    Progress {
-        at: At::Time(moment.time),
-        end: end_ns,
-        steps: moment.step,
-        residual_force_pn: moment.residual().force,
-    }
-}
-
 pub(crate) fn record(moment: &mut Moment<'_>) -> Record {
     let residual = moment.residual();
-    let row = Row {
-        at: At::Time(moment.time),
-        kinetic_pn_nm: moment.kinetic_energy(),
-        residual_force_pn: residual.force,
-        residual_torque_pn_nm: residual.torque,
-        booked: EnergyExchange::default(),
-        energies_pn_nm: moment.energies(),
-        observed: Vec::new(),
-    };
+    let kinetic_pn_nm = moment.kinetic_energy();
+    let at = At::Time(moment.time);
     Record {
-        row,
+        row: Row::new(at, kinetic_pn_nm, residual, moment.energies()),
         state: moment.state().clone(),
     }
 }

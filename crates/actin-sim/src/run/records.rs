@@ -1,7 +1,8 @@
 //! Records in memory or read one by one from files.
 
+use crate::loads::loads_of;
 use crate::{Assembly, At, EnergyExchange, Part, Term};
-use actin_mechanics::{Loads, State, System};
+use actin_mechanics::{Residual, State, System};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io;
@@ -43,21 +44,10 @@ impl Record {
 
     /// Evaluates energies and residuals of a state, without observed quantities.
     pub fn new(system: &System, at: At, state: State) -> Self {
-        let mut loads = Loads::zeros(&state);
-        for interaction in system.interactions() {
-            interaction.add_loads(&state, &mut loads);
-        }
-        let residual = loads.residual(&state);
+        let residual = loads_of(system.interactions(), &state).residual(&state);
         let interactions = system.interactions().iter();
-        let row = Row {
-            at,
-            kinetic_pn_nm: state.kinetic_energy(),
-            residual_force_pn: residual.force,
-            residual_torque_pn_nm: residual.torque,
-            booked: EnergyExchange::default(),
-            energies_pn_nm: interactions.map(|i| i.energy(&state)).collect(),
-            observed: Vec::new(),
-        };
+        let energies_pn_nm = interactions.map(|i| i.energy(&state)).collect();
+        let row = Row::new(at, state.kinetic_energy(), residual, energies_pn_nm);
         Self { row, state }
     }
 }
@@ -83,6 +73,24 @@ pub struct Row {
 }
 
 impl Row {
+    /// Creates a row without exchanged energy and observed quantities.
+    pub(crate) fn new(
+        at: At,
+        kinetic_pn_nm: f64,
+        residual: Residual,
+        energies_pn_nm: Vec<f64>,
+    ) -> Self {
+        Self {
+            at,
+            kinetic_pn_nm,
+            residual_force_pn: residual.force,
+            residual_torque_pn_nm: residual.torque,
+            booked: EnergyExchange::default(),
+            energies_pn_nm,
+            observed: Vec::new(),
+        }
+    }
+
     /// Sum of the energies of all terms (pN nm).
     pub fn potential_pn_nm(&self) -> f64 {
         self.energies_pn_nm.iter().sum()

@@ -52,6 +52,31 @@ impl Sink for Trajectory {
     }
 }
 
+/// Records in memory of a run that a query on the records can interrupt.
+pub(crate) struct InterruptibleTrajectory<F> {
+    pub(crate) trajectory: Trajectory,
+    pub(crate) is_interrupted: F,
+}
+
+impl<F: FnMut(&[Record]) -> bool> InterruptibleTrajectory<F> {
+    pub(crate) fn new(is_interrupted: F) -> Self {
+        Self {
+            trajectory: Trajectory::default(),
+            is_interrupted,
+        }
+    }
+}
+
+impl<F: FnMut(&[Record]) -> bool> Sink for InterruptibleTrajectory<F> {
+    fn record(&mut self, record: &Record) {
+        self.trajectory.record(record);
+    }
+
+    fn is_interrupted(&mut self) -> bool {
+        (self.is_interrupted)(&self.trajectory.records)
+    }
+}
+
 /// Progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {

@@ -4,21 +4,25 @@
 //! sense, by about the square root of the torque, with energies that differ by less than 1 %. From
 //! the straight filament, rounding selects the sense at each place, and Newton's method moves the
 //! boundary between domains by a few monomers per step. The initial guess therefore twists the
-//! whole filament in the sense of lower potential energy of a periodic cell (`periodic.rs`).
+//! whole filament in the sense of lower potential energy of a periodic cell.
 //! Monomers are placed as in cells under the local force and torque.
 //!
 //! Local loads are computed on the straight filament. If they would bend it far, only a part of them
 //! is applied. If the sense of lower energy differs between loads (it reverses above about 20 pN
 //! nm), no initial guess is made.
 
-use super::periodic::{PERIOD, PeriodicFilament};
+use crate::loads::loads_of;
 use crate::scene::{Anchors, End, Filament, FreeTranslation, Task};
+use crate::shape::Resultants;
 use crate::shape::axis::CrossSection;
 use crate::{Assembly, FilamentSpan};
-use actin_assembly::Part;
-use actin_ellipsoid::{CellResponse, Displacements, SixVector};
-use actin_mechanics::{Loads, State, UnitQuaternion, Vector3, rotation};
+use actin_assembly::whole::to_count;
+use actin_assembly::{Part, ellipsoids};
+use actin_ellipsoid::{Cell, CellResponse, Control, Displacements, Hold, SixVector};
+use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 
+/// Number of monomers in a periodic cell: one period of the helix.
+const PERIOD: usize = 13;
 /// Smallest number of monomers. Shorter filaments converge quickly from the straight state.
 const FEWEST_MONOMERS: usize = 1000;
 /// Smallest bend (rad) from the held to the free end under the loads of the straight filament.
@@ -78,12 +82,12 @@ pub fn near_equilibrium(assembly: &Assembly) -> Option<State> {
 struct Cantilever<'a> {
     assembly: &'a Assembly,
     span: &'a FilamentSpan,
-    monomers: PeriodicFilament,
+    /// Infinite filament with quadrature bonds, as a periodic cell under uniform strain.
+    cell: Cell,
     rise_nm: f64,
     length_nm: f64,
-    /// Arc length and sums of forces and moments about the lab origin, accumulated from the free
-    /// end.
-    sums: Vec<(f64, Vector3, Vector3)>,
+    /// Loads on the straight filament.
+    loads: Resultants,
 }
 
 /// Cell of monomers at an arc length (nm): strain and displacements.
@@ -122,39 +126,48 @@ impl<'a> Cantilever<'a> {
         if !is_plain || !is_open || clamp.slides != FreeTranslation::Nowhere {
             return None;
         }
+        let state = assembly.system.state();
+        let terms = assembly.terms.iter().zip(assembly.system.interactions());
+        let of_loads = terms.filter(|(term, _)| matches!(term.part, Part::Load(_)));
+        let loads = loads_of(of_loads.map(|(_, interaction)| interaction), state);
+        let monomers = ellipsoids(&written.monomers.with_quadrature_bonds(), 0).ok()?;
         Some(Self {
             assembly,
             span,
-            monomers: PeriodicFilament::new(&written.monomers).ok()?,
+            cell: Cell::new(&monomers, PERIOD, Hold::Means).ok()?,
             rise_nm: written.monomers.rise_nm,
             length_nm: section.to_nm,
-            sums: sums_from_free_end(assembly, span),
+            loads: Resultants::new(assembly, index, state, &loads),
         })
     }
 
     /// Index of a point's monomer within its cell.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_possible_wrap,
-        reason = "a count of monomers, and the remainder is not negative"
-    )]
     fn monomer(&self, point: usize) -> usize {
         let rises = self.assembly.points[point].s_nm / self.rise_nm;
-        (rises.round() as i64).rem_euclid(PERIOD as i64) as usize
+        to_count(rises.round().rem_euclid(PERIOD as f64))
     }
 
     /// Torque and force at an arc length (nm) of the straight filament in `axes`, exerted by the
     /// part beyond on the part before.
     fn load(&self, at: f64, axes: UnitQuaternion) -> SixVector {
-        let beyond = self.sums.partition_point(|sum| sum.0 > at);
-        let (_, force, moment) = match beyond {
-            0 => Default::default(),
-            n => self.sums[n - 1],
-        };
-        let place = self.span.axis_place(at);
-        let couple = axes.inverse() * (moment - place.cross(&force));
-        let force = axes.inverse() * force;
+        let section = (self.span.axis_place(at), axes);
+        let (force, couple) = self.loads.beyond(at, section).unwrap_or_default();
         SixVector::new(couple.x, couple.y, couple.z, force.x, force.y, force.z)
+    }
+
+    /// Returns the response of the cell to a load, with the equilibrium at a fixed twist (rad/nm) as
+    /// the initial guess. `near` is the guess for that equilibrium: the response to a similar load.
+    fn response(
+        &self,
+        load: &SixVector,
+        twist: f64,
+        near: Option<&CellResponse>,
+    ) -> Option<CellResponse> {
+        let controls = std::array::from_fn(|k| Control::Load(load[k]));
+        let mut held = controls;
+        held[2] = Control::Strain(twist);
+        let held = self.cell.relax_under(&held, near).ok()?;
+        self.cell.relax_under(&controls, Some(&held)).ok()
     }
 
     /// Strains along the curve; `None` if the straight filament is not representative or a cell has
@@ -171,7 +184,7 @@ impl<'a> Cantilever<'a> {
         }
         // Under a torque of 1 pN nm the curvature equals the compliance.
         let unit = largest / across(largest);
-        let sides = [-TWIST, TWIST].map(|twist| self.monomers.under_from_twist(&unit, twist, None));
+        let sides = [-TWIST, TWIST].map(|twist| self.response(&unit, twist, None));
         let [Some(left), Some(right)] = sides else {
             return None;
         };
@@ -234,7 +247,7 @@ impl<'a> Cantilever<'a> {
         start.strain[0] *= root;
         start.strain[1] *= root;
         let twist = start.strain[2];
-        self.monomers.under_from_twist(load, twist, Some(&start))
+        self.response(load, twist, Some(&start))
     }
 
     fn step(&self, at: f64, strain: &SixVector) -> f64 {
@@ -325,34 +338,6 @@ fn motion_at(curve: &[CellStrain], at: f64, monomer: usize) -> (Vector3, Vector3
         Vector3::new(d[0], d[1], d[2]),
         Vector3::new(d[3], d[4], d[5]),
     )
-}
-
-/// Arc length and summed force and moment of the loads about the lab origin for each body, from the
-/// free end.
-fn sums_from_free_end(assembly: &Assembly, span: &FilamentSpan) -> Vec<(f64, Vector3, Vector3)> {
-    let state = assembly.system.state();
-    let mut loads = Loads::zeros(state);
-    let terms = assembly.terms.iter().zip(assembly.system.interactions());
-    for (_, interaction) in terms.filter(|(term, _)| matches!(term.part, Part::Load(_))) {
-        interaction.add_loads(state, &mut loads);
-    }
-    let points = span.points.clone().map(|i| {
-        let force = loads.force.get(i);
-        let moment = state.points.position.get(i).cross(&force);
-        (assembly.points[i].s_nm, force, moment)
-    });
-    let frames = span.frames.clone().map(|i| {
-        let moment = state.frames.orientation.get(i) * loads.torque.get(i);
-        (assembly.frames[i].s_nm, Vector3::zeros(), moment)
-    });
-    let mut sums: Vec<_> = points.chain(frames).collect();
-    sums.sort_by(|a, b| b.0.total_cmp(&a.0));
-    for k in 1..sums.len() {
-        let (_, force, moment) = sums[k - 1];
-        sums[k].1 += force;
-        sums[k].2 += moment;
-    }
-    sums
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ pub struct StableState {
 /// If the equilibrium cannot be solved again.
 pub(super) fn search(
     assembly: &Assembly,
-    (newton, taken): (&mut Newton, &mut RecordStream<'_>),
+    (newton, records): (&mut Newton, &mut RecordStream<'_>),
     (state, at): (&State, At),
     starts: usize,
 ) -> Result<Option<StableStates>, SolveError> {
@@ -65,7 +65,7 @@ pub(super) fn search(
     };
     let mut watch = Watch {
         assembly,
-        taken,
+        records,
         at,
     };
     let SearchResult { states, lost } =
@@ -90,19 +90,19 @@ pub(super) fn search(
 /// Observer that interrupts the search for the sink and filters valid results.
 struct Watch<'a, 't> {
     assembly: &'a Assembly,
-    taken: &'a mut RecordStream<'t>,
+    records: &'a mut RecordStream<'t>,
     at: At,
 }
 
 impl SearchObserver for Watch<'_, '_> {
     fn iterate(&mut self, _step: &Iteration) -> ControlFlow<()> {
-        if self.taken.sink.is_interrupted() {
+        if self.records.sink.is_interrupted() {
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
     }
 
     fn counts(&mut self, state: &State) -> bool {
-        self.taken.has_all_turns((state, self.at)) && self.assembly.beyond_use(state).is_empty()
+        self.records.has_all_turns((state, self.at)) && self.assembly.beyond_use(state).is_empty()
     }
 }

@@ -4,6 +4,7 @@ use super::{Estimate, composition};
 use crate::codes;
 use crate::scene::{Dynamics, Scene, SceneProblem, Task};
 use actin_assembly::Note;
+use actin_assembly::whole::to_steps;
 use actin_integrate::Drag;
 
 const DEFAULT_RECORDS: f64 = 100.0;
@@ -27,23 +28,14 @@ const ROUND_OFF: f64 = 1e-12;
 /// Relative error of the recorded drift velocity that gives a warning.
 const RECORDED_DRIFT: f64 = 0.01;
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Steps {
-    /// Length (ns): the duration over the number of steps.
-    pub(super) length_ns: f64,
-    pub(super) count: u64,
-    pub(super) between_records: u64,
-    /// Time between two records (ns), as requested where whole steps allow it.
-    pub(super) record_every_ns: f64,
-}
-
-impl Steps {
-    /// Steps of at most `largest_ns` that divide the duration of `dynamics` and, where this takes
-    /// few additional steps, the interval of its records.
+impl Estimate {
+    /// Creates the estimate of a motion in steps of at most `largest_ns`, without force evaluations.
+    /// The steps divide the duration of `dynamics` and, where this takes few additional steps, the
+    /// interval of its records.
     ///
     /// # Errors
     /// If the number of steps exceeds 2^53.
-    pub(super) fn new(dynamics: &Dynamics, largest_ns: f64) -> Result<Self, SceneProblem> {
+    pub(super) fn in_steps(dynamics: &Dynamics, largest_ns: f64) -> Result<Self, SceneProblem> {
         let duration = dynamics.duration_ns;
         let (count, between, record_every_ns) = match dynamics.record_every_ns {
             Some(every) if every < duration => recorded_every(duration, every, largest_ns),
@@ -55,15 +47,18 @@ impl Steps {
                 (count, between, between * length)
             }
         };
-        let is_countable = |steps: f64| (1.0..=MOST_STEPS).contains(&steps);
-        if !is_countable(count) {
+        if !(1.0..=MOST_STEPS).contains(&count) {
             return Err(uncountable(dynamics, largest_ns));
         }
         Ok(Self {
-            length_ns: duration / count,
-            count: whole(count),
-            between_records: whole(between),
+            largest_frequency_rad_per_ns: 0.0,
+            stability_limit_ns: f64::INFINITY,
+            time_step_ns: duration / count,
+            steps: to_steps(count),
+            steps_between_records: to_steps(between),
             record_every_ns,
+            force_evaluations: 0,
+            longest_sound_step: None,
         })
     }
 }
@@ -83,15 +78,6 @@ fn uncountable(dynamics: &Dynamics, largest_ns: f64) -> SceneProblem {
             ),
         ),
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a whole number that is not negative; the conversion saturates"
-)]
-fn whole(number: f64) -> u64 {
-    number as u64
 }
 
 /// Smallest number of steps of at most `largest` in `time`.
@@ -282,8 +268,12 @@ mod tests {
     }
 
     fn steps(task: &str, largest: f64) -> (u64, u64, f64) {
-        let steps = Steps::new(&dynamics(task), largest).unwrap();
-        (steps.count, steps.between_records, steps.record_every_ns)
+        let steps = Estimate::in_steps(&dynamics(task), largest).unwrap();
+        (
+            steps.steps,
+            steps.steps_between_records,
+            steps.record_every_ns,
+        )
     }
 
     /// 17.9 steps of 0.0028 ns in 0.05 ns become 18.
@@ -305,10 +295,10 @@ mod tests {
     #[test]
     fn incommensurate_intervals_are_rounded_with_a_warning() {
         let task = dynamics("duration_ns: 0.777, record_every_ns: 0.1, time_step_ns: 0.003");
-        let steps = Steps::new(&task, 0.003).unwrap();
-        assert_eq!((steps.count, steps.between_records), (265, 34));
+        let steps = Estimate::in_steps(&task, 0.003).unwrap();
+        assert_eq!((steps.steps, steps.steps_between_records), (265, 34));
         assert!((steps.record_every_ns - 0.777 / 265.0 * 34.0).abs() < 1e-12);
-        let notes = texts(estimate(&steps).notes(&Task::Dynamics(task)));
+        let notes = texts(estimate(steps).notes(&Task::Dynamics(task)));
         assert_eq!(notes.len(), 2);
         assert!(
             notes[0].contains("steps of 2.932075e-3 ns are used"),
@@ -320,23 +310,18 @@ mod tests {
         );
     }
 
-    fn estimate(steps: &Steps) -> Estimate {
+    fn estimate(steps: Estimate) -> Estimate {
         Estimate {
             largest_frequency_rad_per_ns: 500.0,
             stability_limit_ns: 0.006,
-            time_step_ns: steps.length_ns,
-            steps: steps.count,
-            steps_between_records: steps.between_records,
-            record_every_ns: steps.record_every_ns,
-            longest_sound_step: None,
-            force_evaluations: 0,
+            ..steps
         }
     }
 
     fn notes(task: &str) -> Vec<String> {
         let task = dynamics(task);
-        let steps = Steps::new(&task, task.time_step_ns.unwrap_or(0.003)).unwrap();
-        texts(estimate(&steps).notes(&Task::Dynamics(task)))
+        let steps = Estimate::in_steps(&task, task.time_step_ns.unwrap_or(0.003)).unwrap();
+        texts(estimate(steps).notes(&Task::Dynamics(task)))
     }
 
     fn texts(notes: Vec<Note>) -> Vec<String> {
@@ -381,12 +366,12 @@ mod tests {
         ] {
             for largest in [0.0028, 0.00131, 0.9, 1e-6] {
                 let open = format!("duration_ns: {duration:?}, record_every_ns: {every:?}");
-                let first = Steps::new(&dynamics(&open), largest).unwrap();
+                let first = Estimate::in_steps(&dynamics(&open), largest).unwrap();
                 let resolved = format!(
                     "duration_ns: {duration:?}, record_every_ns: {:?}",
                     first.record_every_ns
                 );
-                let again = Steps::new(&dynamics(&resolved), first.length_ns).unwrap();
+                let again = Estimate::in_steps(&dynamics(&resolved), first.time_step_ns).unwrap();
                 assert_eq!(again, first, "{open}, {largest}");
             }
         }

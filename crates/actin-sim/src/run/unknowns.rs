@@ -2,6 +2,7 @@
 
 use crate::Assembly;
 use crate::scene::{Equilibrium as Settings, SceneProblem};
+use actin_assembly::problem_at;
 use actin_coupling::{Linker, LinkerEnd};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions, Residual};
 
@@ -22,8 +23,6 @@ const DISPLACEMENT: f64 = 0.5;
 /// # Errors
 /// If the solver refuses tolerances or bodies.
 pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneProblem> {
-    let refused =
-        |key: &str, error: &dyn std::error::Error| SceneProblem::new(key, "", error.to_string());
     let layout = layout(assembly)?;
     let options = NewtonOptions {
         tolerance: Residual {
@@ -34,14 +33,13 @@ pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneP
         ..NewtonOptions::default()
     };
     match &assembly.repelled {
-        None => Newton::new(layout, options).map_err(|error| refused("task", &error)),
+        None => Newton::new(layout, options).map_err(problem_at("task")),
         Some(repelled) => {
             let options = NewtonOptions {
                 largest_displacement: DISPLACEMENT * repelled.radius_nm,
                 ..options
             };
-            let newton = Newton::new(layout, options);
-            let mut newton = newton.map_err(|error| refused("task", &error))?;
+            let mut newton = Newton::new(layout, options).map_err(problem_at("task"))?;
             newton.determine_order(&assembly.rest, assembly.system.interactions());
             Ok(newton)
         }
@@ -50,7 +48,7 @@ pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneP
 
 pub(crate) fn layout(assembly: &Assembly) -> Result<Layout, SceneProblem> {
     let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())
-        .map_err(|error| SceneProblem::new("filament", "", error.to_string()))?;
+        .map_err(problem_at("filament"))?;
     let is_between_sites = |linker: &Linker| matches!(linker.end(), LinkerEnd::Site(_));
     let has_links = assembly.repelled.is_some() || assembly.linkers.iter().any(is_between_sites);
     Ok(if has_links {

@@ -74,6 +74,16 @@ impl Axis {
     }
 }
 
+/// Linear interpolation of values at ascending arc lengths (nm), constant beyond the outermost.
+pub(crate) fn interpolated(known: &[(f64, Vector3)], s_nm: f64) -> Vector3 {
+    let after = known.partition_point(|k| k.0 < s_nm);
+    if after == 0 || after == known.len() {
+        return known[after.min(known.len() - 1)].1;
+    }
+    let ((s_a, a), (s_b, b)) = (known[after - 1], known[after]);
+    a.lerp(&b, (s_nm - s_a) / (s_b - s_a))
+}
+
 /// Cubic Hermite interpolation between two vertices.
 fn cubic(a: (f64, Vector3, Vector3), b: (f64, Vector3, Vector3), s_nm: f64) -> Vector3 {
     let length = b.0 - a.0;

@@ -97,11 +97,7 @@ fn distances(points: &[Vector3]) -> (f64, f64) {
     let first = points[0];
     let line = points[points.len() - 1] - first;
     let length = line.norm();
-    let along = if length < LEAST_NM {
-        Vector3::zeros()
-    } else {
-        line / length
-    };
+    let along = direction(line);
     let (mut sum, mut farthest, mut asymmetry) = (0.0, LEAST_NM, 0.0);
     for point in points {
         let arm = point - first;
@@ -140,30 +136,30 @@ fn turn_of_normals(edges: &[Vector3]) -> f64 {
 }
 
 fn supertwist(edges: &[Vector3], axis: Vector3) -> f64 {
-    let across = |edge: &Vector3| {
-        let seen = edge - axis * edge.dot(&axis);
-        let length = seen.norm();
-        if length < LEAST_NM {
-            Vector3::zeros()
-        } else {
-            seen / length
-        }
-    };
+    let across = |edge: &Vector3| direction(edge - axis * edge.dot(&axis));
     let seen: Vec<Vector3> = edges.iter().map(across).collect();
     let (first, last) = (seen[0], -seen[seen.len() - 1]);
     let turns = seen
         .windows(2)
         .map(|pair| axis.dot(&pair[0].cross(&pair[1])));
-    let majority: f64 = turns
-        .map(|turn| if turn == 0.0 { 0.0 } else { turn.signum() })
-        .sum();
-    let sign = if majority == 0.0 {
-        0.0
-    } else {
-        majority.signum()
-    };
+    let sign = sign(turns.map(sign).sum());
     let (sine, cosine) = (first.cross(&last).norm(), first.dot(&last));
     sign * sine.atan2(cosine)
+}
+
+/// Returns the unit vector along `v`, or zero if `v` has no direction.
+fn direction(v: Vector3) -> Vector3 {
+    let length = v.norm();
+    if length < LEAST_NM {
+        Vector3::zeros()
+    } else {
+        v / length
+    }
+}
+
+/// Returns the sign of a number, or zero for zero.
+fn sign(x: f64) -> f64 {
+    if x == 0.0 { 0.0 } else { x.signum() }
 }
 
 #[cfg(test)]

@@ -7,7 +7,6 @@ pub(crate) mod axis;
 mod buckle;
 #[cfg(test)]
 mod fixture;
-mod link;
 mod linking;
 mod profile;
 mod ribbon;
@@ -17,14 +16,14 @@ mod writhe;
 
 pub(crate) use buckle::Buckle;
 pub(crate) use buckle::equally_spaced;
-pub use link::link;
-pub(crate) use link::{WHOLE, link_is_unknown};
+pub use linking::link;
+pub(crate) use linking::{WHOLE, link_is_unknown};
 pub(crate) use profile::energy_per_length;
 pub use profile::{ProfilePoint, profile, profile_of};
 pub use ribbon::Ribbon;
 pub(crate) use ribbon::{from_rest, writhe_of};
 pub use section_loads::SectionLoad;
-pub(crate) use section_loads::SectionLoads;
+pub(crate) use section_loads::{Resultants, SectionLoads};
 pub(crate) use twist::twist;
 #[cfg(test)]
 pub(crate) use writhe::closed_writhe;

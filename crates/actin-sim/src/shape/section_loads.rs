@@ -1,8 +1,9 @@
 //! Internal forces and moments of a filament.
 
 use super::Ribbon;
-use super::axis::Axis;
+use super::axis::{Axis, CrossSection};
 use crate::Assembly;
+use crate::loads::loads_of;
 use actin_mechanics::{Loads, State, Vector3};
 
 /// Force and moment that the part of a filament after a cross-section exerts on the part before it,
@@ -40,11 +41,58 @@ impl SectionLoad {
 /// Distance (nm) from the last body of the cross-section whose load an end has.
 const BEFORE_END_NM: f64 = 1e-6;
 
+/// Force and moment about the lab origin on all bodies from the end of a filament up to an arc length.
 #[derive(Clone, Copy, Debug, Default)]
 struct Resultant {
     s_nm: f64,
     force: Vector3,
     moment: Vector3,
+}
+
+/// Resultants of loads on a filament, in order of descending arc length.
+#[derive(Debug)]
+pub(crate) struct Resultants(Vec<Resultant>);
+
+impl Resultants {
+    /// Sums `loads` over the bodies of a filament.
+    pub(crate) fn new(assembly: &Assembly, filament: usize, state: &State, loads: &Loads) -> Self {
+        let span = &assembly.filaments[filament];
+        let points = span.points.clone().map(|i| {
+            let force = loads.force.get(i);
+            Resultant {
+                s_nm: assembly.points[i].s_nm,
+                force,
+                moment: state.points.position.get(i).cross(&force),
+            }
+        });
+        let frames = span.frames.clone().map(|i| Resultant {
+            s_nm: assembly.frames[i].s_nm,
+            force: Vector3::zeros(),
+            moment: state.frames.orientation.get(i) * loads.torque.get(i),
+        });
+        let mut all: Vec<Resultant> = points.chain(frames).collect();
+        all.sort_by(|a, b| b.s_nm.total_cmp(&a.s_nm));
+        let mut sum = Resultant::default();
+        for one in &mut all {
+            sum.force += one.force;
+            sum.moment += one.moment;
+            (one.force, one.moment) = (sum.force, sum.moment);
+        }
+        Self(all)
+    }
+
+    /// Returns force and couple about `place` of the bodies beyond an arc length (nm), in `axes`;
+    /// `None` beyond the last body.
+    pub(crate) fn beyond(
+        &self,
+        s_nm: f64,
+        (place, axes): CrossSection,
+    ) -> Option<(Vector3, Vector3)> {
+        let after = self.0.partition_point(|one| one.s_nm > s_nm);
+        let Resultant { force, moment, .. } = self.0[after.checked_sub(1)?];
+        let to_body = axes.inverse();
+        Some((to_body * force, to_body * (moment - place.cross(&force))))
+    }
 }
 
 /// Internal loads of one filament in one state.
@@ -54,8 +102,7 @@ struct Resultant {
 /// holds for monomers, rods and mixed filaments, in equilibrium and in motion.
 #[derive(Debug)]
 pub(crate) struct SectionLoads {
-    /// Bodies in order of descending arc length, each with the resultant of all bodies from the end up to it.
-    resultants: Vec<Resultant>,
+    resultants: Resultants,
     axis: Axis,
 }
 
@@ -65,56 +112,28 @@ impl SectionLoads {
     /// # Panics
     /// If the index is out of range.
     pub(crate) fn new(assembly: &Assembly, filament: usize, state: &State) -> Self {
-        let placed = &assembly.filaments[filament];
-        let mut loads = Loads::zeros(state);
-        for interaction in &assembly.system.interactions()[placed.terms.clone()] {
-            interaction.add_loads(state, &mut loads);
+        let terms = assembly.filaments[filament].terms.clone();
+        let loads = loads_of(&assembly.system.interactions()[terms], state);
+        Self {
+            resultants: Resultants::new(assembly, filament, state, &loads),
+            axis: Axis::from_ribbon(&Ribbon::from_state(assembly, filament, state)),
         }
-        let points = placed.points.clone().map(|i| {
-            let force = loads.force.get(i);
-            Resultant {
-                s_nm: assembly.points[i].s_nm,
-                force,
-                moment: state.points.position.get(i).cross(&force),
-            }
-        });
-        let frames = placed.frames.clone().map(|i| Resultant {
-            s_nm: assembly.frames[i].s_nm,
-            force: Vector3::zeros(),
-            moment: state.frames.orientation.get(i) * loads.torque.get(i),
-        });
-        let mut resultants: Vec<Resultant> = points.chain(frames).collect();
-        resultants.sort_by(|a, b| b.s_nm.total_cmp(&a.s_nm));
-        let mut sum = Resultant::default();
-        for one in &mut resultants {
-            sum.force += one.force;
-            sum.moment += one.moment;
-            (one.force, one.moment) = (sum.force, sum.moment);
-        }
-        let axis = Axis::from_ribbon(&Ribbon::from_state(assembly, filament, state));
-        Self { resultants, axis }
     }
 
     /// Returns the internal load at an arc length (nm). An end has the load of the adjacent cross-section; interfaces
     /// between held monomers before the start have the load of the start.
     pub(crate) fn within(&self, s_nm: f64) -> SectionLoad {
-        let end = self.resultants.first().map_or(0.0, |last| last.s_nm);
+        let end = self.resultants.0.first().map_or(0.0, |last| last.s_nm);
         self.at(s_nm.min(end - BEFORE_END_NM).max(0.0))
     }
 
     /// Returns the internal load at an arc length (nm); zero beyond the ends of the filament.
     pub(crate) fn at(&self, s_nm: f64) -> SectionLoad {
-        let after = self.resultants.partition_point(|one| one.s_nm > s_nm);
-        let Some(last) = after.checked_sub(1) else {
-            return SectionLoad::default();
-        };
-        let Resultant { force, moment, .. } = self.resultants[last];
-        let (place, axes) = self.axis.at(s_nm);
-        let to_body = axes.inverse();
-        SectionLoad {
-            force_pn: -(to_body * force),
-            couple_pn_nm: -(to_body * (moment - place.cross(&force))),
-        }
+        let resultant = self.resultants.beyond(s_nm, self.axis.at(s_nm));
+        resultant.map_or_else(SectionLoad::default, |(force, couple)| SectionLoad {
+            force_pn: -force,
+            couple_pn_nm: -couple,
+        })
     }
 }
 

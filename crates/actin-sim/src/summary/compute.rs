@@ -1,14 +1,13 @@
 //! The numbers of a summary, from the last record of a run.
 
 use super::{
-    AccuracySummary, EndReactions, EnergySummary, FilamentSummary, LateKinetic, LinkerSummary,
-    ResidualSummary, ShapeSummary, StabilitySummary, StatesSummary, Summary, ThermalSummary,
-    WorkSummary,
+    AccuracySummary, EnergySummary, FilamentSummary, LinkerSummary, ResidualSummary,
+    StabilitySummary, StatesSummary, Summary, ThermalSummary, WorkSummary,
 };
-use crate::observe::{Averages, Observers, View};
-use crate::{Assembly, At, End, EnergyExchange, Outcome, Record, Row, Status, Task};
+use crate::observe::{Averages, Memory, View, observed_values};
+use crate::{Assembly, At, Outcome, Record, Row, Status, Task};
 use actin_equilibrium::Certificate;
-use actin_mechanics::{Loads, Residual};
+use actin_mechanics::Residual;
 
 impl Summary {
     /// Creates the summary of an assembly as built, with the keys of a run's summary but without
@@ -19,18 +18,12 @@ impl Summary {
             Task::Equilibrium(_) => At::Path(0.0),
         };
         let state = assembly.rest.clone();
-        let observers = Observers::new(assembly);
         let energies_pn_nm = vec![0.0; assembly.terms.len()];
         let view = View::new(assembly, (at, &state), (&energies_pn_nm, 0.0));
-        let observed = observers.row(&view, &mut observers.memory());
+        let observed = observed_values(&view, &mut Memory::new(assembly));
         let row = Row {
-            at,
-            kinetic_pn_nm: 0.0,
-            residual_force_pn: 0.0,
-            residual_torque_pn_nm: 0.0,
-            booked: EnergyExchange::default(),
-            energies_pn_nm,
             observed,
+            ..Row::new(at, 0.0, Residual::default(), energies_pn_nm)
         };
         let record = Record { row, state };
         Self::new(assembly, &record, &Outcome::new(Status::Interrupted, 0.0))
@@ -81,7 +74,7 @@ impl Summary {
             shape: first.shape,
             residual: ResidualSummary::new(last),
             residual_floor: outcome.residual_floor().map(Into::into),
-            thermal: ThermalSummary::new(assembly, &kinetic_of(last)),
+            thermal: ThermalSummary::new(assembly, (last.kinetic_pn_nm, 1)),
             following: None,
             lowest_stiffness_eigenvalue: outcome.lowest_eigenvalue(),
             states: StatesSummary::from_outcome(assembly, outcome),
@@ -96,12 +89,6 @@ impl Summary {
     }
 }
 
-fn kinetic_of(record: &Record) -> LateKinetic {
-    let mut kinetic = LateKinetic::new(1);
-    kinetic.add(record.kinetic_pn_nm);
-    kinetic
-}
-
 impl WorkSummary {
     fn new(outcome: &Outcome) -> Self {
         let equilibrium = outcome.equilibrium.as_ref();
@@ -109,45 +96,6 @@ impl WorkSummary {
             steps: outcome.steps,
             force_evaluations: outcome.force_evaluations,
             newton_iterations: equilibrium.map_or(0, |e| e.newton_iterations),
-        }
-    }
-}
-
-impl FilamentSummary {
-    pub(super) fn all(assembly: &Assembly, last: &Record) -> Vec<Self> {
-        // Computed for the state of the record, which may differ from the current state of the
-        // system.
-        let mut loads = Loads::zeros(&last.state);
-        for interaction in assembly.system.interactions() {
-            interaction.add_loads(&last.state, &mut loads);
-        }
-        let here = (last, assembly.path_parameter(last.at));
-        let filaments = 0..assembly.filaments.len();
-        filaments
-            .map(|filament| Self::new(assembly, filament, here, &loads))
-            .collect()
-    }
-
-    /// Creates the summary of a filament from the loads of the last record, at `parameter` of the
-    /// path.
-    fn new(
-        assembly: &Assembly,
-        filament: usize,
-        (last, parameter): (&Record, f64),
-        loads: &Loads,
-    ) -> Self {
-        let tip = reported_tip(assembly, filament);
-        let tip_nm = assembly.tip_of(filament, &last.state, tip);
-        let tip_at_rest_nm = assembly.tip_of(filament, &assembly.rest, tip);
-        let terms = assembly.filaments[filament].terms.clone();
-        Self {
-            counts: assembly.counts_of(filament),
-            tip_nm: tip_nm.into(),
-            tip_displacement_nm: (tip_nm - tip_at_rest_nm).into(),
-            end_reactions: EndReactions::new(assembly, filament, &last.state, loads),
-            elastic_pn_nm: last.energies_pn_nm[terms].iter().sum(),
-            shape: ShapeSummary::new(assembly, filament, (&last.state, parameter)),
-            seed: assembly.monomers_of(filament).seed,
         }
     }
 }
@@ -181,19 +129,10 @@ impl From<Residual> for ResidualSummary {
     }
 }
 
-/// End whose tip is reported: the last one, unless it is clamped and the first one is free.
-fn reported_tip(assembly: &Assembly, filament: usize) -> End {
-    let is_clamped = |end| assembly.clamp_at(filament, end).is_some();
-    if is_clamped(End::End) && !is_clamped(End::Start) {
-        End::Start
-    } else {
-        End::End
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::End;
     use crate::summary::fixture;
     use actin_mechanics::Vector3;
     use actin_mechanics::testing::resultant;

@@ -107,11 +107,7 @@ pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record 
 }
 
 pub(super) fn loads(assembly: &Assembly, state: &State) -> Loads {
-    let mut loads = Loads::zeros(state);
-    for interaction in assembly.system.interactions() {
-        interaction.add_loads(state, &mut loads);
-    }
-    loads
+    crate::loads::loads_of(assembly.system.interactions(), state)
 }
 
 pub(super) fn outcome() -> Outcome {

@@ -2,8 +2,7 @@
 
 use super::components;
 use crate::Assembly;
-use actin_coupling::Linker;
-use actin_mechanics::State;
+use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// Position, force and extension of a linker.
@@ -33,39 +32,28 @@ pub struct LinkerSummary {
 
 impl LinkerSummary {
     pub(super) fn all(assembly: &Assembly, state: &State) -> Vec<Self> {
-        (0..assembly.linkers.len())
-            .map(|i| {
-                let (linker, _) = assembly.linker_in(i, state);
-                let filaments = assembly.linked_filaments(i, state);
-                let summary = Self::new(filaments, &linker, state);
-                match assembly.switched(i, state) {
-                    None => summary,
-                    Some((bound, at_nm)) => Self {
-                        bound: Some(bound),
-                        at_nm: Some(at_nm),
-                        force_pn: if bound { summary.force_pn } else { [0.0; 3] },
-                        ..summary
-                    },
-                }
-            })
-            .collect()
-    }
-
-    fn new(
-        (filament, to_filament): (usize, Option<usize>),
-        linker: &Linker,
-        state: &State,
-    ) -> Self {
-        Self {
-            filament,
-            to_filament,
-            site_nm: linker.site().position(state).into(),
-            anchor_nm: linker.end_position(state).into(),
-            force_pn: linker.force(state).into(),
-            bound: None,
-            at_nm: None,
-            extension_nm: linker.extension(state),
-        }
+        let linkers = 0..assembly.linkers.len();
+        let summary = |i| {
+            let (linker, is_bound) = assembly.linker_in(i, state);
+            let (filament, to_filament) = assembly.linked_filaments(i, state);
+            let (bound, at_nm) = assembly.switched(i, state).unzip();
+            let force = if is_bound {
+                linker.force(state)
+            } else {
+                Vector3::zeros()
+            };
+            Self {
+                filament,
+                to_filament,
+                site_nm: linker.site().position(state).into(),
+                anchor_nm: linker.end_position(state).into(),
+                force_pn: force.into(),
+                bound,
+                at_nm,
+                extension_nm: linker.extension(state),
+            }
+        };
+        linkers.map(summary).collect()
     }
 
     pub(super) fn numbers(&self) -> Vec<(String, f64)> {

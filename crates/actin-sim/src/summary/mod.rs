@@ -3,21 +3,18 @@
 
 mod compute;
 mod energy;
+mod filament;
 mod following;
 mod linkers;
-mod pushes;
-mod reactions;
-mod shape;
 mod states;
 mod statistics;
 mod thermal;
 mod warnings;
 
 pub use energy::EnergySummary;
+pub use filament::{EndReaction, EndReactions, FilamentSummary, ShapeSummary};
 pub use following::FollowingSummary;
 pub use linkers::LinkerSummary;
-pub use reactions::{EndReaction, EndReactions};
-pub use shape::ShapeSummary;
 pub use states::{StateSummary, StatesSummary};
 pub use thermal::ThermalSummary;
 
@@ -29,7 +26,6 @@ use crate::{ModelError, Scatter, SectionChoice};
 use actin_assembly::Note;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use thermal::LateKinetic;
 
 /// Final results of a run. Field names are the keys of `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -152,26 +148,6 @@ fn first_format() -> u32 {
     1
 }
 
-/// Final results of one filament.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FilamentSummary {
-    /// Numbers of bodies and elements.
-    #[serde(with = "CountKeys")]
-    pub counts: Counts,
-    /// Position of the tip (nm, lab frame).
-    pub tip_nm: [f64; 3],
-    /// Displacement of the tip from the initial state (nm, lab frame).
-    pub tip_displacement_nm: [f64; 3],
-    /// Reactions at the clamped ends.
-    pub end_reactions: EndReactions,
-    /// Elastic energy of sections and junctions, without linkers (pN nm).
-    pub elastic_pn_nm: f64,
-    /// Shape.
-    pub shape: ShapeSummary,
-    /// Seed of the bond anchors.
-    pub seed: u64,
-}
-
 /// Stability of an equilibrium from the eigenvalues of its stiffness.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StabilitySummary {
@@ -246,13 +222,28 @@ impl Summary {
 
     /// Numbers by key, for checks that they are finite: `tip_nm[0]`, `filaments[0].elastic_pn_nm`.
     pub fn numbers(&self) -> Vec<(String, f64)> {
-        let scalars = self.scalars().into_iter();
+        let temperature = self.thermal.and_then(|one| one.kinetic_temperature_k);
+        let eigenvalue = self.lowest_stiffness_eigenvalue;
+        let frequency = self.largest_frequency_rad_per_ns;
+        let scalars = [
+            ("wall_s", Some(self.wall_s)),
+            ("residual.force_pn", Some(self.residual.force_pn)),
+            ("residual.torque_pn_nm", Some(self.residual.torque_pn_nm)),
+            ("time_ns", self.time_ns),
+            ("path", self.path),
+            ("time_step_ns", self.time_step_ns),
+            ("smallest_gap_nm", self.smallest_gap_nm),
+            ("largest_frequency_rad_per_ns", frequency),
+            ("lowest_stiffness_eigenvalue", eigenvalue),
+            ("thermal.kinetic_temperature_k", temperature),
+        ];
+        let scalars = scalars.into_iter();
         let known = scalars.filter_map(|(key, value)| Some((key.to_owned(), value?)));
         let mut all: Vec<_> = known.collect();
         all.extend(self.energy_pn_nm.numbers());
         let observed = self.observables.iter();
         all.extend(observed.flat_map(|(name, one)| one.numbers(name)));
-        all.extend(self.pushes.iter().enumerate().flat_map(pushes::numbers));
+        all.extend(self.pushes.iter().enumerate().flat_map(push_numbers));
         let tip = [self.tip_nm, self.tip_displacement_nm];
         all.extend(end_numbers(tip, &self.end_reactions));
         all.extend(below("shape", self.shape.numbers()));
@@ -264,36 +255,17 @@ impl Summary {
         }
         all
     }
-
-    fn scalars(&self) -> [(&'static str, Option<f64>); 10] {
-        let temperature = self.thermal.and_then(|one| one.kinetic_temperature_k);
-        let eigenvalue = self.lowest_stiffness_eigenvalue;
-        let frequency = self.largest_frequency_rad_per_ns;
-        [
-            ("wall_s", Some(self.wall_s)),
-            ("residual.force_pn", Some(self.residual.force_pn)),
-            ("residual.torque_pn_nm", Some(self.residual.torque_pn_nm)),
-            ("time_ns", self.time_ns),
-            ("path", self.path),
-            ("time_step_ns", self.time_step_ns),
-            ("smallest_gap_nm", self.smallest_gap_nm),
-            ("largest_frequency_rad_per_ns", frequency),
-            ("lowest_stiffness_eigenvalue", eigenvalue),
-            ("thermal.kinetic_temperature_k", temperature),
-        ]
-    }
 }
 
-impl FilamentSummary {
-    fn numbers(&self) -> Vec<(String, f64)> {
-        let mut all = vec![("elastic_pn_nm".to_owned(), self.elastic_pn_nm)];
-        all.extend(end_numbers(
-            [self.tip_nm, self.tip_displacement_nm],
-            &self.end_reactions,
-        ));
-        all.extend(below("shape", self.shape.numbers()));
-        all
-    }
+fn push_numbers((i, push): (usize, &SaddlePush)) -> [(String, f64); 5] {
+    [
+        ("time_ns", push.time_ns),
+        ("energy_pn_nm", push.energy_pn_nm),
+        ("lowest_eigenvalue", push.lowest_eigenvalue),
+        ("displacement_nm", push.displacement_nm),
+        ("turn_rad", push.turn_rad),
+    ]
+    .map(|(key, value)| (format!("pushes[{i}].{key}"), value))
 }
 
 /// Numbers of the tip (position, displacement) and of the reactions of a filament.

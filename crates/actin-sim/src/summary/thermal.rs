@@ -24,62 +24,35 @@ pub struct ThermalSummary {
 }
 
 impl ThermalSummary {
-    pub(super) fn new(assembly: &Assembly, late: &LateKinetic) -> Option<Self> {
+    /// Creates the summary from the sum of the kinetic energy (pN nm) over a number of records.
+    pub(super) fn new(assembly: &Assembly, (sum_pn_nm, records): (f64, usize)) -> Option<Self> {
         let Thermal {
             temperature_k,
             seed,
         } = assembly.scene.thermal()?;
         let has_inertia = matches!(assembly.scene.task, Task::Dynamics(_));
-        let degrees = (assembly.counts().dofs * late.records).max(1) as f64;
+        let degrees = (assembly.counts().dofs * records).max(1) as f64;
         Some(Self {
             temperature_k,
             seed,
             kinetic_temperature_k: has_inertia
-                .then_some(2.0 * late.sum_pn_nm / (degrees * BOLTZMANN_PN_NM_PER_K)),
+                .then_some(2.0 * sum_pn_nm / (degrees * BOLTZMANN_PN_NM_PER_K)),
         })
-    }
-}
-
-/// Sum of the kinetic energy over the second half of the records.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LateKinetic {
-    early: usize,
-    records: usize,
-    sum_pn_nm: f64,
-}
-
-impl LateKinetic {
-    pub(super) fn new(count: usize) -> Self {
-        Self {
-            early: count / 2,
-            records: 0,
-            sum_pn_nm: 0.0,
-        }
-    }
-
-    pub(super) fn add(&mut self, kinetic_pn_nm: f64) {
-        match self.early {
-            0 => {
-                self.records += 1;
-                self.sum_pn_nm += kinetic_pn_nm;
-            }
-            _ => self.early -= 1,
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
     use crate::summary::fixture;
+    use crate::{Scene, Summary, Trajectory};
 
     /// The second half of 5, 1 and 3 pN nm has a mean of 2 pN nm.
     #[test]
     fn the_temperature_is_that_of_the_second_half() {
         let cold = fixture::clamped_start();
         let records = fixture::trajectory(&cold).records;
-        assert_eq!(ThermalSummary::new(&cold, &LateKinetic::new(3)), None);
+        assert_eq!(ThermalSummary::new(&cold, (1.0, 3)), None);
         let text = cold.scene.to_ron();
         let mut scene = Scene::from_ron(&text).unwrap();
         let Task::Dynamics(dynamics) = &mut scene.task else {
@@ -95,11 +68,8 @@ mod tests {
         for (record, kinetic) in records.iter_mut().zip([5.0, 1.0, 3.0]) {
             record.row.kinetic_pn_nm = kinetic;
         }
-        let mut late = LateKinetic::new(3);
-        for record in &records {
-            late.add(record.kinetic_pn_nm);
-        }
-        let summary = ThermalSummary::new(&warm, &late).unwrap();
+        let summary = Summary::from_run(&warm, &Trajectory { records }, &fixture::outcome());
+        let summary = summary.unwrap().thermal.unwrap();
         assert_eq!((summary.temperature_k, summary.seed), (300.0, u64::MAX));
         let expected = 2.0 * 2.0 / (warm.counts().dofs as f64 * BOLTZMANN_PN_NM_PER_K);
         assert!((summary.kinetic_temperature_k.unwrap() / expected - 1.0).abs() < 1e-14);

@@ -40,14 +40,14 @@ pub(super) fn other_states(
     limits: Limits<'_>,
 ) -> (Vec<Branch>, f64) {
     let mut scene = scene.clone();
-    let Task::Equilibrium(settings) = &mut scene.task else {
-        return (Vec::new(), 0.0);
+    let result = match &mut scene.task {
+        Task::Equilibrium(settings) if scene.path.len() <= 1 => {
+            settings.states = STARTS;
+            run_once(&scene, limits).ok()
+        }
+        _ => None,
     };
-    if scene.path.len() > 1 {
-        return (Vec::new(), 0.0);
-    }
-    settings.states = STARTS;
-    let Ok(result) = run_once(&scene, limits) else {
+    let Some(result) = result else {
         return (Vec::new(), 0.0);
     };
     let states = result.states.into_iter().flat_map(|found| found.states);

@@ -1,7 +1,7 @@
 //! Candidates of a scene in the order of their runs: longer steps, rods, windows of monomers, single filaments as rods.
 
-use super::resolution::{FullResolution, Rods};
-use crate::scene::{Integrator, Monomers, RodLaw, RotaryInertia, Scene, Section, Task};
+use super::resolution::FullResolution;
+use crate::scene::{Integrator, RodLaw, Scene, Section, Task};
 
 /// Time step of position Verlet candidates as a fraction of the stability limit.
 const LONGEST: f64 = 0.9;
@@ -16,44 +16,49 @@ pub(super) struct Proposal {
 }
 
 /// Returns the scene at half of its default step.
-pub(super) fn at_half_step(scene: &Scene, default_ns: Option<f64>) -> Scene {
-    let mut half = scene.clone();
+pub(super) fn at_half_step(full: &FullResolution) -> Scene {
+    let mut half = full.scene.clone();
     match &mut half.task {
         Task::Equilibrium(_) => {}
         Task::Dynamics(dynamics) => match &mut dynamics.time_step_ns {
             Some(step) => *step *= 0.5,
             None => dynamics.step_safety *= 0.5,
         },
-        Task::Brownian(brownian) => brownian.time_step_ns = default_ns.map(|step| 0.5 * step),
+        Task::Brownian(brownian) => {
+            brownian.time_step_ns = full.default_ns().map(|step| 0.5 * step);
+        }
     }
     half
 }
 
-/// Returns the scene with longer steps and cheaper integrators; `default_ns` is its default step.
-pub(super) fn steps(scene: &Scene, default_ns: Option<f64>) -> Vec<Proposal> {
-    let name = |what: &str| format!("every monomer, {what}");
-    let mut all = Vec::new();
-    if scene.thermal().is_some() {
-        return all;
-    }
-    if !matches!(scene.task, Task::Equilibrium(_)) {
-        all.push(Proposal {
-            name: name("default step"),
-            scene: scene.clone(),
-        });
-    }
+/// Returns the scene with longer steps and cheaper integrators.
+pub(super) fn steps(full: &FullResolution) -> Vec<Proposal> {
+    let (scene, default_ns) = (&full.scene, full.default_ns());
+    let every = |what: &str, scene| Proposal {
+        name: format!("every monomer, {what}"),
+        scene,
+    };
+    let default = || every("default step", scene.clone());
     match (&scene.task, default_ns) {
-        (Task::Dynamics(_), _) => all.push(Proposal {
-            name: name("position Verlet at 0.9 of the stable step"),
-            scene: quick(scene, default_ns),
-        }),
-        (Task::Brownian(_), Some(step_ns)) => all.extend(MULTIPLES.map(|multiple| Proposal {
-            name: name(&format!("{multiple} times the default step")),
-            scene: with_step(scene, f64::from(multiple) * step_ns),
-        })),
-        _ => {}
+        _ if scene.thermal().is_some() => Vec::new(),
+        (Task::Equilibrium(_), _) => Vec::new(),
+        (Task::Dynamics(_), _) => {
+            let verlet = quick(scene, default_ns);
+            vec![
+                default(),
+                every("position Verlet at 0.9 of the stable step", verlet),
+            ]
+        }
+        (Task::Brownian(_), default_ns) => {
+            let longer = default_ns.into_iter().flat_map(|step_ns| {
+                MULTIPLES.map(|multiple| {
+                    let longer = with_step(scene, f64::from(multiple) * step_ns);
+                    every(&format!("{multiple} times the default step"), longer)
+                })
+            });
+            std::iter::once(default()).chain(longer).collect()
+        }
     }
-    all
 }
 
 fn with_step(scene: &Scene, step_ns: f64) -> Scene {
@@ -86,61 +91,21 @@ fn quick(scene: &Scene, default_ns: Option<f64>) -> Scene {
     scene
 }
 
-struct Places<'a> {
-    full: &'a FullResolution,
-    bends_most: &'a [Option<f64>],
-}
+/// Windows of monomers in a candidate: their centres and their width (nm); `None` for rods only.
+type Windows = Option<(Centres, f64)>;
 
-impl Places<'_> {
-    fn walls_and_sites(&self, filament: usize) -> Vec<f64> {
-        let (walls, sites) = (self.full.walls(filament), self.full.sites(filament));
-        [walls, sites].concat()
-    }
+/// Windows of a candidate, and law and segment length (nm) of its rods.
+type Resolution = (Windows, RodLaw, f64);
 
-    fn rods(&self, rods: &[(RodLaw, f64)]) -> impl Iterator<Item = Proposal> {
-        rods.iter().map(|(law, segment_nm)| {
-            let rods = self::rods(&self.full.scene, law, *segment_nm);
-            Proposal {
-                name: rods.name(),
-                scene: self.full.resolved(&rods, &self.full.no_windows()),
-            }
-        })
-    }
-
-    /// Returns filaments of rods with windows of monomers, where these leave room for rods.
-    fn all_windows(&self, windows: &[(Kind, f64, RodLaw, f64)]) -> impl Iterator<Item = Proposal> {
-        windows
-            .iter()
-            .filter_map(|(kind, width_nm, law, segment_nm)| {
-                let windows = self.windows(*kind, *width_nm)?;
-                let rods = rods(&self.full.scene, law, *segment_nm);
-                Some(Proposal {
-                    name: format!("{width_nm} nm {}, {}", kind.name(), rods.name()),
-                    scene: self.full.resolved(&rods, &windows),
-                })
-            })
-    }
-
-    fn windows(&self, of: Kind, width_nm: f64) -> Option<Vec<Vec<[f64; 2]>>> {
-        self.full.windows(
-            |filament| match of {
-                Kind::Everywhere => self.walls_and_sites(filament),
-                Kind::Sites => self.full.sites(filament),
-                Kind::Bend => Vec::from_iter(self.bends_most[filament]),
-            },
-            width_nm,
-        )
-    }
-}
-
+/// Centres of windows.
 #[derive(Clone, Copy)]
-enum Kind {
+enum Centres {
     Everywhere,
     Sites,
     Bend,
 }
 
-impl Kind {
+impl Centres {
     fn name(self) -> &'static str {
         match self {
             Self::Everywhere => "at walls, loads and linkers",
@@ -150,65 +115,120 @@ impl Kind {
     }
 }
 
+use Centres::{Bend, Everywhere, Sites};
 use RodLaw::{Constant, Fitted, Homogenised};
 
 /// Smallest number of resolutions without `--all`, where windows leave room for as many.
 const FEWEST: usize = 8;
 
-/// Laws and segment lengths (nm) of all-rod candidates: by default, and for `--all` or short filaments.
-const RODS: [(RodLaw, f64); 5] = [
-    (Fitted, 40.0),
-    (Homogenised, 40.0),
-    (Fitted, 20.0),
-    (Homogenised, 20.0),
-    (Homogenised, 10.0),
+/// Resolutions by default, and for `--all` or short filaments.
+const DEFAULT: [Resolution; 9] = [
+    (None, Fitted, 40.0),
+    (None, Homogenised, 40.0),
+    (None, Fitted, 20.0),
+    (None, Homogenised, 20.0),
+    (None, Homogenised, 10.0),
+    (Some((Everywhere, 20.0)), Fitted, 20.0),
+    (Some((Everywhere, 40.0)), Homogenised, 40.0),
+    (Some((Sites, 40.0)), Homogenised, 20.0),
+    (Some((Bend, 80.0)), Homogenised, 40.0),
 ];
-const MORE_RODS: [(RodLaw, f64); 5] = [
-    (Fitted, 10.0),
-    (Fitted, 5.0),
-    (Homogenised, 5.0),
-    (Constant, 40.0),
-    (Constant, 20.0),
+const MORE: [Resolution; 9] = [
+    (None, Fitted, 10.0),
+    (None, Fitted, 5.0),
+    (None, Homogenised, 5.0),
+    (None, Constant, 40.0),
+    (None, Constant, 20.0),
+    (Some((Everywhere, 20.0)), Homogenised, 20.0),
+    (Some((Everywhere, 40.0)), Fitted, 20.0),
+    (Some((Everywhere, 80.0)), Homogenised, 20.0),
+    (Some((Bend, 40.0)), Homogenised, 20.0),
 ];
 
-/// Windows of monomers: centres, width (nm), and law and segment length (nm) of the rods between them.
-const WINDOWS: [(Kind, f64, RodLaw, f64); 4] = [
-    (Kind::Everywhere, 20.0, Fitted, 20.0),
-    (Kind::Everywhere, 40.0, Homogenised, 40.0),
-    (Kind::Sites, 40.0, Homogenised, 20.0),
-    (Kind::Bend, 80.0, Homogenised, 40.0),
+/// References for scenes with too many monomers, from coarse to fine.
+const REFERENCES: [Resolution; 5] = [
+    (None, Homogenised, 40.0),
+    (None, Homogenised, 20.0),
+    (Some((Everywhere, 20.0)), Homogenised, 20.0),
+    (Some((Everywhere, 40.0)), Homogenised, 20.0),
+    (Some((Everywhere, 80.0)), Homogenised, 20.0),
 ];
-const MORE_WINDOWS: [(Kind, f64, RodLaw, f64); 4] = [
-    (Kind::Everywhere, 20.0, Homogenised, 20.0),
-    (Kind::Everywhere, 40.0, Fitted, 20.0),
-    (Kind::Everywhere, 80.0, Homogenised, 20.0),
-    (Kind::Bend, 40.0, Homogenised, 20.0),
+
+/// Resolutions of `Adaptive`: windows of monomers, and segment length (nm) of the rods.
+const CHOSEN: [(Windows, f64); 8] = [
+    (None, 40.0),
+    (None, 20.0),
+    (None, 10.0),
+    (Some((Everywhere, 20.0)), 20.0),
+    (Some((Everywhere, 40.0)), 20.0),
+    (Some((Everywhere, 80.0)), 20.0),
+    (Some((Sites, 40.0)), 20.0),
+    (Some((Sites, 40.0)), 40.0),
 ];
+
+struct Places<'a> {
+    full: &'a FullResolution,
+    /// Arc length (nm) of the largest curvature of each filament in the reference.
+    bends_most: &'a [Option<f64>],
+}
+
+impl Places<'_> {
+    /// Returns the candidate of a resolution; `None` if its windows leave no room for rods.
+    fn proposal(&self, (windows, law, segment_nm): &Resolution) -> Option<Proposal> {
+        let rods = name_of(law, *segment_nm);
+        let name = match windows {
+            None => rods,
+            Some((centres, width_nm)) => format!("{width_nm} nm {}, {rods}", centres.name()),
+        };
+        let windows = self.windows(*windows)?;
+        let scene = self.full.resolved(law, *segment_nm, &windows);
+        Some(Proposal { name, scene })
+    }
+
+    fn windows(&self, windows: Windows) -> Option<Vec<Vec<[f64; 2]>>> {
+        let Some((centres, width_nm)) = windows else {
+            return Some(vec![Vec::new(); self.full.fixed.len()]);
+        };
+        let places = |filament| match centres {
+            Everywhere => [self.full.walls(filament), self.full.sites(filament)].concat(),
+            Sites => self.full.sites(filament),
+            Bend => Vec::from_iter(self.bends_most[filament]),
+        };
+        self.full.windows(places, width_nm)
+    }
+}
+
+fn name_of(law: &RodLaw, segment_nm: f64) -> String {
+    let law = match law {
+        Fitted => "Fitted",
+        Constant => "Constant",
+        _ => "Homogenised",
+    };
+    format!("rod {law} {segment_nm} nm")
+}
 
 /// Returns candidates of rods, and of rods with windows of monomers.
 ///
 /// `bends_most` is the arc length (nm) of the largest curvature of each filament in the reference.
 pub(super) fn resolutions(
     full: &FullResolution,
-    default_ns: Option<f64>,
     bends_most: &[Option<f64>],
     is_all: bool,
 ) -> Vec<Proposal> {
     let full = FullResolution {
-        scene: quick(&full.scene, default_ns),
+        scene: quick(&full.scene, full.default_ns()),
         ..full.clone()
     };
     let places = Places {
         full: &full,
         bends_most,
     };
-    let default = places.rods(&RODS).chain(places.all_windows(&WINDOWS));
+    let default = DEFAULT.iter().filter_map(|one| places.proposal(one));
     let mut all = Vec::new();
     for proposal in default.chain(single_rods(&full)) {
         push_new(&mut all, proposal);
     }
-    let more_windows = places.all_windows(&MORE_WINDOWS);
-    for proposal in places.rods(&MORE_RODS).chain(more_windows) {
+    for proposal in MORE.iter().filter_map(|one| places.proposal(one)) {
         if is_all || all.len() < FEWEST {
             push_new(&mut all, proposal);
         }
@@ -225,105 +245,50 @@ fn push_new(all: &mut Vec<Proposal>, proposal: Proposal) {
     }
 }
 
-/// Resolutions of `Adaptive`: segment lengths (nm) of all-rod filaments, and windows of monomers with their width (nm) and
-/// the segment length of the rods between them (nm).
-const SEGMENTS_NM: [f64; 3] = [40.0, 20.0, 10.0];
-const CHOSEN: [(Kind, f64, f64); 5] = [
-    (Kind::Everywhere, 20.0, 20.0),
-    (Kind::Everywhere, 40.0, 20.0),
-    (Kind::Everywhere, 80.0, 20.0),
-    (Kind::Sites, 40.0, 20.0),
-    (Kind::Sites, 40.0, 40.0),
-];
-
 /// Returns the candidates of `Adaptive`, with the rods and the time step of the scene.
-pub(super) fn sections(full: &FullResolution) -> Vec<Proposal> {
+pub(super) fn sections(full: &FullResolution) -> impl Iterator<Item = Proposal> {
     let places = Places {
         full,
         bends_most: &[],
     };
-    let of_rods = SEGMENTS_NM.map(|segment_nm| {
-        let name = format!("a rod of segments of {segment_nm} nm");
-        (name, segment_nm, Some(full.no_windows()))
-    });
-    let of_windows = CHOSEN.map(|(kind, width_nm, segment_nm)| {
-        let name = format!(
-            "{width_nm} nm of monomers {}, and a rod of segments of {segment_nm} nm",
-            kind.name()
-        );
-        (name, segment_nm, places.windows(kind, width_nm))
-    });
-    let all = of_rods.into_iter().chain(of_windows);
-    all.filter_map(|(name, segment_nm, windows)| {
-        let scene = full.with_sections(segment_nm, &windows?);
+    CHOSEN.iter().filter_map(move |&(windows, segment_nm)| {
+        let rod = format!("a rod of segments of {segment_nm} nm");
+        let name = match windows {
+            None => rod,
+            Some((centres, width_nm)) => {
+                format!("{width_nm} nm of monomers {}, and {rod}", centres.name())
+            }
+        };
+        let scene = full.with_sections(segment_nm, &places.windows(windows)?);
         Some(Proposal { name, scene })
     })
-    .collect()
 }
 
 /// Returns references from coarse to fine for scenes with too many monomers: rods, then windows of increasing width.
-pub(super) fn references(full: &FullResolution) -> Vec<Proposal> {
-    let rods = rods(&full.scene, &Homogenised, 20.0);
+pub(super) fn references(full: &FullResolution) -> impl Iterator<Item = Proposal> {
     let places = Places {
         full,
         bends_most: &[],
     };
-    let coarse = self::rods(&full.scene, &Homogenised, 40.0);
-    let first = Proposal {
-        name: coarse.name(),
-        scene: full.resolved(&coarse, &full.no_windows()),
-    };
-    let none = (rods.name(), Some(full.no_windows()));
-    let widths = [20.0, 40.0, 80.0].map(|width_nm| {
-        let windows = places.windows(Kind::Everywhere, width_nm);
-        let name = format!("{width_nm} nm {}, {}", Kind::Everywhere.name(), rods.name());
-        (name, windows)
-    });
-    let finer = [none].into_iter().chain(widths);
-    let finer = finer.filter_map(|(name, windows)| {
-        let scene = full.resolved(&rods, &windows?);
-        Some(Proposal { name, scene })
-    });
-    [first].into_iter().chain(finer).collect()
+    REFERENCES
+        .iter()
+        .filter_map(move |one| places.proposal(one))
 }
 
-fn rods(scene: &Scene, law: &RodLaw, segment_nm: f64) -> Rods {
-    let inertia = match scene.task {
-        Task::Dynamics(_) => RotaryInertia::RigidSegment,
-        Task::Brownian(_) | Task::Equilibrium(_) => RotaryInertia::CrossSection,
-    };
-    Rods {
-        law: law.clone(),
-        segment_nm,
-        inertia,
-    }
-}
-
-impl Rods {
-    fn name(&self) -> String {
-        let law = match self.law {
-            Fitted => "Fitted",
-            Constant => "Constant",
-            _ => "Homogenised",
-        };
-        format!("rod {law} {} nm", self.segment_nm)
-    }
-}
-
+/// Returns candidates with a single filament of rods, for two to four filaments.
 fn single_rods(full: &FullResolution) -> Vec<Proposal> {
     let free: Vec<usize> = full.free().collect();
     if free.len() < 2 || free.len() > 4 {
         return Vec::new();
     }
     let of = |one: usize| {
-        let rods = rods(&full.scene, &Homogenised, 20.0);
         let windows = (0..full.fixed.len()).map(|f| {
             let whole_nm = [0.0, full.lengths_nm[f]];
             if f == one { Vec::new() } else { vec![whole_nm] }
         });
         Proposal {
-            name: format!("filament {one} as {}", rods.name()),
-            scene: full.resolved(&rods, &windows.collect::<Vec<_>>()),
+            name: format!("filament {one} as {}", name_of(&Homogenised, 20.0)),
+            scene: full.resolved(&Homogenised, 20.0, &windows.collect::<Vec<_>>()),
         }
     };
     free.into_iter().map(of).collect()
@@ -332,16 +297,9 @@ fn single_rods(full: &FullResolution) -> Vec<Proposal> {
 fn with_eight_bonds(scene: &Scene) -> Proposal {
     let mut scene = scene.clone();
     for filament in scene.filaments_mut() {
-        if filament
-            .sections
-            .iter()
-            .any(|section| !Section::is_rod(section))
-        {
-            filament.monomers = Monomers {
-                lateral_bonds: 8,
-                longitudinal_bonds: 8,
-                ..filament.monomers.clone()
-            };
+        if !filament.sections.iter().all(Section::is_rod) {
+            filament.monomers.lateral_bonds = 8;
+            filament.monomers.longitudinal_bonds = 8;
         }
     }
     Proposal {

@@ -1,8 +1,8 @@
 //! Compared quantities: numbers and vectors of records, defined for every resolution.
 
-use crate::observe::{View, observed_columns};
+use crate::observe::{View, current_values, observed_columns};
 use crate::scene::{
-    End, FreeTranslation, Linker, Quantity, Resultant, Scene, SceneProblem, Setting,
+    End, FreeTranslation, Linker, Observable, Quantity, Resultant, Scene, SceneProblem, Setting,
 };
 use crate::shape::Ribbon;
 use crate::shape::axis::Axis;
@@ -59,37 +59,38 @@ impl From<Quantity> for Measure {
     }
 }
 
+/// Quantities by their names on the command line.
+const NAMES: [(&str, Measure); 7] = [
+    ("tip", Measure::Tip),
+    ("height", Measure::Height),
+    ("end-force", Measure::EndForce),
+    ("end-couple", Measure::EndCouple),
+    ("energy", Measure::Energy),
+    ("curvature", Measure::Curvature(None)),
+    ("linker-force", Measure::LinkerForce(None)),
+];
+
 /// Parses a name of the command line. Any other name is the prefix of an observable.
 impl FromStr for Measure {
     type Err = std::convert::Infallible;
 
     fn from_str(name: &str) -> Result<Self, Self::Err> {
-        Ok(match name {
-            "tip" => Self::Tip,
-            "height" => Self::Height,
-            "end-force" => Self::EndForce,
-            "end-couple" => Self::EndCouple,
-            "energy" => Self::Energy,
-            "curvature" => Self::Curvature(None),
-            "linker-force" => Self::LinkerForce(None),
-            other => Self::Observable(other.to_owned()),
-        })
+        let known = NAMES.into_iter().find(|(known, _)| *known == name);
+        let observable = || Self::Observable(name.to_owned());
+        Ok(known.map_or_else(observable, |(_, measure)| measure))
     }
 }
 
 impl fmt::Display for Measure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Tip => write!(f, "tip"),
-            Self::Height => write!(f, "height"),
-            Self::EndForce => write!(f, "end-force"),
-            Self::EndCouple => write!(f, "end-couple"),
-            Self::Energy => write!(f, "energy"),
-            Self::Curvature(None) => write!(f, "curvature"),
             Self::Curvature(Some(at_nm)) => write!(f, "curvature at {at_nm} nm"),
-            Self::LinkerForce(None) => write!(f, "linker-force"),
             Self::LinkerForce(Some(linker)) => write!(f, "linker-force {linker}"),
-            Self::Observable(name) => write!(f, "{name}"),
+            Self::Observable(name) => f.write_str(name),
+            known => {
+                let name = NAMES.iter().find(|(_, measure)| measure == known);
+                f.write_str(name.map_or("", |(name, _)| name))
+            }
         }
     }
 }
@@ -142,12 +143,11 @@ impl Moment {
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     Tip(usize, End),
-    Height(usize),
-    Force(usize),
-    Couple(usize),
+    /// Numbers of an observable at these indices.
+    Observed(Observable, Range<usize>),
     Energy,
     Curvature(usize, Vec<f64>),
-    Linker(usize),
+    /// Observed quantities of the scene in these columns.
     Columns(Range<usize>),
 }
 
@@ -292,10 +292,7 @@ impl Measurer {
     pub(super) fn values(&self, assembly: &Assembly, records: &[Record]) -> Values {
         let views: Vec<View<'_>> = records
             .iter()
-            .map(|record| {
-                let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
-                View::new(assembly, (record.at, &record.state), energies)
-            })
+            .map(|record| view(assembly, record))
             .collect();
         let of_item = |item: &Item| {
             let all = views.iter().zip(records);
@@ -318,35 +315,30 @@ impl Measurer {
         self.items.iter().map(of_item).collect()
     }
 
-    fn value(&self, item: &Item, view: &View<'_>, record: &Record) -> Vec<f64> {
+    pub(super) fn value(&self, item: &Item, view: &View<'_>, record: &Record) -> Vec<f64> {
         let assembly = view.assembly;
         match &item.kind {
             Kind::Tip(filament, end) => {
                 let place = |state| assembly.tip_of(*filament, state, *end);
                 self.vector(place(view.state) - place(&assembly.rest))
             }
-            Kind::Height(filament) => vec![view.ribbon(*filament).largest_distance_nm()],
-            Kind::Force(clamp) | Kind::Couple(clamp) => {
-                let reaction = assembly.clamps[*clamp].reaction(view.state, view.loads());
-                self.vector(match item.kind {
-                    Kind::Force(_) => reaction.force_pn,
-                    _ => reaction.torque_pn_nm,
-                })
-            }
             Kind::Energy => {
                 let terms = assembly.filaments.iter().flat_map(|f| f.terms.clone());
                 vec![terms.map(|term| record.energies_pn_nm[term]).sum()]
             }
             Kind::Curvature(filament, places) => turns(view.ribbon(*filament), places),
-            Kind::Linker(linker) => {
-                let (linker, is_bound) = assembly.linker_in(*linker, view.state);
-                let force = linker.force(view.state);
-                self.vector(if is_bound { force } else { Vector3::zeros() })
+            Kind::Observed(one, columns) => {
+                self.components(&current_values(*one, view)[columns.clone()])
             }
-            Kind::Columns(columns) => match &record.observed[columns.clone()] {
-                [x, y, z] => self.vector(Vector3::new(*x, *y, *z)),
-                numbers => numbers.to_vec(),
-            },
+            Kind::Columns(columns) => self.components(&record.observed[columns.clone()]),
+        }
+    }
+
+    /// Returns three numbers as a vector, and other numbers unchanged.
+    fn components(&self, numbers: &[f64]) -> Vec<f64> {
+        match numbers {
+            [x, y, z] => self.vector(Vector3::new(*x, *y, *z)),
+            numbers => numbers.to_vec(),
         }
     }
 
@@ -360,6 +352,11 @@ impl Measurer {
             }
         }
     }
+}
+
+pub(super) fn view<'a>(assembly: &'a Assembly, record: &'a Record) -> View<'a> {
+    let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
+    View::new(assembly, (record.at, &record.state), energies)
 }
 
 fn moments(item: &Item) -> [Item; 2] {
@@ -404,10 +401,14 @@ fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
                 .collect()
         }
         Measure::Height => filaments()
-            .map(|f| Item::new(of("height", f), "nm", Kind::Height(f)))
+            .map(|filament| {
+                // The largest distance is the third number of the contour.
+                let kind = Kind::Observed(Observable::Contour { filament }, 2..3);
+                Item::new(of("height", filament), "nm", kind)
+            })
             .collect(),
-        Measure::EndForce => of_clamps(assembly, "force", "pN", Kind::Force),
-        Measure::EndCouple => of_clamps(assembly, "couple", "pN nm", Kind::Couple),
+        Measure::EndForce => of_clamps(assembly, "force", "pN", 0..3),
+        Measure::EndCouple => of_clamps(assembly, "couple", "pN nm", 3..6),
         Measure::Energy => vec![Item::new("energy".to_owned(), "pN nm", Kind::Energy)],
         Measure::Curvature(at_nm) => filaments()
             .filter(|f| at_nm.is_none() || *f == 0)
@@ -417,7 +418,10 @@ fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
             .collect(),
         Measure::LinkerForce(one) => (0..assembly.linkers.len())
             .filter(|linker| one.is_none_or(|one| one == *linker))
-            .map(|linker| Item::new(format!("linker {linker}"), "pN", Kind::Linker(linker)))
+            .map(|linker| {
+                let kind = Kind::Observed(Observable::Linker { linker }, 0..3);
+                Item::new(format!("linker {linker}"), "pN", kind)
+            })
             .collect(),
         Measure::Observable(name) => columns(&observed_columns(assembly), name),
     }
@@ -434,16 +438,19 @@ fn of_clamps(
     assembly: &Assembly,
     what: &str,
     unit: &'static str,
-    kind: fn(usize) -> Kind,
+    numbers: Range<usize>,
 ) -> Vec<Item> {
-    let clamps = assembly.clamps.iter().enumerate();
-    let named = clamps.map(|(i, clamp)| {
+    let named = assembly.clamps.iter().map(|clamp| {
         let end = match clamp.end {
             End::Start => "start",
             End::End => "end",
         };
         let name = name_of(assembly, &format!("{end} {what}"), clamp.filament);
-        Item::new(name, unit, kind(i))
+        let reaction = Observable::EndReaction {
+            filament: clamp.filament,
+            end: clamp.end,
+        };
+        Item::new(name, unit, Kind::Observed(reaction, numbers.clone()))
     });
     named.collect()
 }

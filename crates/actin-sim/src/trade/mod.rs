@@ -19,7 +19,7 @@ mod table;
 pub use branches::OtherState;
 pub use measure::{Item, Measure};
 pub(crate) use model_error::model_error;
-pub(crate) use section_choice::choose;
+pub use section_choice::build;
 pub use study::trade;
 
 use crate::Counts;

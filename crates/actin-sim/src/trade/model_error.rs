@@ -1,11 +1,12 @@
 //! Error of one quantity of an equilibrium, measured against a run of the same scene with every monomer.
 
-use super::measure::{Measure, Measurer};
+use super::measure::{Measure, Measurer, view};
 use super::resolution::{drawn, every_monomer, with_records_of};
-use super::run::{Limits, RunResult, TrialFailure, run_once};
+use super::run::{Limits, RunResult, run_once};
 use crate::run::{ModelError, ModelErrorResult, Scatter};
 use crate::scene::{Quantity, Scene, SceneProblem};
 use crate::{Assembly, Record};
+use std::slice;
 
 const FILAMENTS: u64 = 3;
 
@@ -24,17 +25,41 @@ pub(crate) fn model_error(
     }
     let every = with_records_of(every, &assembly.scene);
     let full = equilibrium(&every)?;
-    let measurer = Measurer::new(&full.assembly, &[Measure::from(quantity)])?;
-    let reader = QuantityReader { measurer };
-    let reference = reader.value(&full.assembly, &full.records);
-    let size = reader.size(&reference);
-    let here = reader.value(assembly, std::slice::from_ref(last));
+    let mut measurer = Measurer::new(&full.assembly, &[Measure::from(quantity)])?;
+    // The last item of the tips is the end of the last filament.
+    let item = measurer
+        .items
+        .pop()
+        .expect("a measured quantity has an item");
+    let value = |assembly: &Assembly, record: &Record| {
+        measurer.value(&item, &view(assembly, record), record)
+    };
+    let reference = value(&full.assembly, full.last());
+    let size = item.size(&reference);
+    let apart = |value: &Vec<f64>| {
+        let error = item.error(slice::from_ref(&reference), slice::from_ref(value));
+        error.unwrap_or(f64::NAN)
+    };
+    let here = value(assembly, last);
     let error = ModelError {
         quantity,
-        value: reader.size(&here),
-        error: size - reader.size(&here),
-        relative: reader.apart(&here, &reference),
+        value: item.size(&here),
+        error: size - item.size(&here),
+        relative: apart(&here),
     };
+    let scatter = scatter(&every, |result| {
+        let value = value(&result.assembly, result.last());
+        [item.size(&value) - size, apart(&value) * size]
+    })?;
+    Ok((error, scatter))
+}
+
+/// Runs filaments with sampled bonds. `compare` returns the difference in size from the value with
+/// quadrature bonds, and the size of the difference.
+fn scatter(
+    every: &Scene,
+    compare: impl Fn(&RunResult) -> [f64; 2],
+) -> Result<Scatter, SceneProblem> {
     let mut scatter = Scatter {
         bonds: 0,
         filaments: FILAMENTS,
@@ -42,56 +67,16 @@ pub(crate) fn model_error(
         deviation: 0.0,
     };
     for seed in 1..=FILAMENTS {
-        let scene = drawn(&every, seed);
-        let result = equilibrium(&scene)?;
-        let value = reader.value(&result.assembly, &result.records);
+        let scene = drawn(every, seed);
+        let [shift, apart] = compare(&equilibrium(&scene)?);
         scatter.bonds = scene.filament.monomers.lateral_bonds;
-        scatter.shift += (reader.size(&value) - size) / FILAMENTS as f64;
-        let apart = reader.apart(&value, &reference) * size;
+        scatter.shift += shift / FILAMENTS as f64;
         scatter.deviation = scatter.deviation.hypot(apart / (FILAMENTS as f64).sqrt());
     }
-    Ok((error, scatter))
-}
-
-/// Reads one quantity, its last item in the last record. The last item of the tips is the end of the last filament.
-struct QuantityReader {
-    measurer: Measurer,
-}
-
-impl QuantityReader {
-    fn value(&self, assembly: &Assembly, records: &[Record]) -> Vec<Vec<f64>> {
-        let last = records.last().map(std::slice::from_ref);
-        let values = last.map(|last| self.measurer.values(assembly, last));
-        values
-            .and_then(|all| all.last().cloned())
-            .unwrap_or_default()
-    }
-
-    fn size(&self, value: &[Vec<f64>]) -> f64 {
-        let item = self.measurer.items.last();
-        let size = item.and_then(|item| Some(item.size(value.last()?)));
-        size.unwrap_or(f64::NAN)
-    }
-
-    fn apart(&self, value: &[Vec<f64>], reference: &[Vec<f64>]) -> f64 {
-        let item = self.measurer.items.last();
-        let error = item.and_then(|item| item.error(reference, value));
-        error.unwrap_or(f64::NAN)
-    }
+    Ok(scatter)
 }
 
 fn equilibrium(scene: &Scene) -> Result<RunResult, SceneProblem> {
-    let limits = Limits {
-        budget: None,
-        records: None,
-        is_interrupted: &|| false,
-    };
-    run_once(scene, limits).map_err(|failure| match failure {
-        TrialFailure::Refused(problem) => problem,
-        TrialFailure::Interrupted | TrialFailure::Failed(_) => {
-            let rule =
-                format!("have no known error: the equilibrium of every monomer fails: {failure}");
-            SceneProblem::new("filament.sections", "", rule)
-        }
-    })
+    let rule = "have no known error: the equilibrium of every monomer fails";
+    run_once(scene, Limits::NONE).map_err(|failure| failure.into_problem(rule))
 }

@@ -3,13 +3,11 @@
 use super::SETTLED;
 use super::ladder::{self, Proposal};
 use super::measure::Measurer;
-use super::resolution::with_records_of;
 use super::resolution::{FullResolution, every_monomer};
 use super::run::{Limits, TrialFailure};
 use super::sample::Sample;
 use super::{Options, Reference, TradeCallbacks, TradeError, worst};
 use crate::scene::{Scene, SceneProblem};
-use crate::{Assembly, Plan};
 
 /// Smallest fraction of the records of a motion that the reference must reach within the budget.
 const LEAST_SHARE: f64 = 0.1;
@@ -21,10 +19,6 @@ pub(super) struct Setup<'a> {
     /// The scene with every monomer.
     pub full: FullResolution,
     pub measurer: Measurer,
-    /// Default time step of a motion (ns).
-    pub default_ns: Option<f64>,
-    /// Number of records of a motion.
-    total: Option<usize>,
 }
 
 pub(super) struct ReferenceRun {
@@ -51,19 +45,13 @@ impl<'a> Setup<'a> {
             let rule = format!("no other resolution to compare with: {reason}");
             return Err(SceneProblem::new("filament.sections", "", rule));
         }
-        let assembly = Assembly::build(&every)?;
-        let plan = Plan::new(&assembly)?;
-        let estimate = plan.estimate();
-        let mut full = FullResolution::new(&assembly, fixed);
-        full.scene = with_records_of(every, plan.scene());
+        let (full, assembly) = FullResolution::new(every, fixed)?;
         let measurer = Measurer::new(&assembly, &options.measures)?;
         Ok(Self {
             options,
             watch,
             full,
             measurer,
-            default_ns: estimate.map(|estimate| estimate.time_step_ns),
-            total: records_of(estimate),
         })
     }
 
@@ -76,16 +64,16 @@ impl<'a> Setup<'a> {
     /// A reference without a result; interruptions.
     pub(super) fn reference(&self) -> Result<ReferenceRun, TradeError> {
         let is_hot = self.full.scene.thermal().is_some();
-        let (name, scene) = if self.default_ns.is_some() && !is_hot {
-            let half = ladder::at_half_step(&self.full.scene, self.default_ns);
+        let (name, scene) = if self.full.estimate.is_some() && !is_hot {
+            let half = ladder::at_half_step(&self.full);
             ("every monomer at half of the default step", half)
         } else {
             ("every monomer", self.full.scene.clone())
         };
         let sample = self.run(name, &scene)?;
-        let share = match (sample.is_cut, self.total) {
+        let share = match (sample.last_run.is_cut, self.full.estimate) {
             (false, _) => 1.0,
-            (true, Some(total)) => sample.last_run.records.len() as f64 / total as f64,
+            (true, Some(all)) => sample.last_run.records.len() as f64 / all.records() as f64,
             (true, None) => 0.0,
         };
         if share < LEAST_SHARE {
@@ -107,7 +95,7 @@ impl<'a> Setup<'a> {
         for Proposal { name, scene } in ladder::references(&self.full) {
             let sample = self.run(&name, &scene)?;
             spent_s += sample.wall_s;
-            if sample.is_cut {
+            if sample.last_run.is_cut {
                 break;
             }
             let found = self.reference_run((&name, scene), sample, best.as_ref(), spent_s);
@@ -147,7 +135,7 @@ impl<'a> Setup<'a> {
         let reference = Reference {
             name: name.to_owned(),
             scene,
-            counts: sample.counts,
+            counts: sample.counts(),
             wall_s: sample.wall_s,
             is_settled: worst(&own_errors) <= SETTLED * self.options.error,
             own_errors,
@@ -176,9 +164,4 @@ impl<'a> Setup<'a> {
             },
         })
     }
-}
-
-fn records_of(estimate: Option<&crate::Estimate>) -> Option<usize> {
-    let estimate = estimate?;
-    usize::try_from(estimate.steps / estimate.steps_between_records + 1).ok()
 }

@@ -1,9 +1,11 @@
 //! Resolutions of filaments: rods under a law, with windows of monomers.
 
-use crate::Assembly;
 use crate::scene::{
-    Anchors, Couple, End, Force, Hold, Load, RodLaw, RodModel, RotaryInertia, Scene, Section, Task,
+    Anchors, Couple, End, Force, Hold, Load, RodLaw, RodModel, RotaryInertia, Scene, SceneProblem,
+    Section, Task,
 };
+use crate::{Assembly, Estimate, Plan};
+use actin_assembly::whole::to_count;
 use actin_cosserat::Homogenised;
 
 /// Shortest rod (nm): a period of monomers. Monomers replace rods below this length.
@@ -23,6 +25,8 @@ pub(super) struct FullResolution {
     pub lengths_nm: Vec<f64>,
     /// Filaments with fixed sections.
     pub fixed: FixedSections,
+    /// Default time step and number of records of a motion.
+    pub estimate: Option<Estimate>,
 }
 
 /// Reason for the fixed sections of each filament; `None` if its sections may be replaced.
@@ -113,34 +117,53 @@ fn reason_fixed(scene: &Scene, filament: usize) -> Option<&'static str> {
     }
 }
 
-#[derive(Clone, Debug)]
-pub(super) struct Rods {
-    pub law: RodLaw,
-    pub segment_nm: f64,
-    pub inertia: RotaryInertia,
-}
-
 impl FullResolution {
-    pub(super) fn new(assembly: &Assembly, fixed: FixedSections) -> Self {
+    /// Assembles and plans a scene with every monomer.
+    ///
+    /// # Errors
+    /// If the scene cannot be built or planned.
+    pub(super) fn new(
+        every: Scene,
+        fixed: FixedSections,
+    ) -> Result<(Self, Assembly), SceneProblem> {
+        let assembly = Assembly::build(&every)?;
+        let plan = Plan::new(&assembly)?;
         let filaments = 0..assembly.filaments.len();
-        Self {
-            scene: assembly.scene.clone(),
+        let full = Self {
+            scene: with_records_of(every, plan.scene()),
             lengths_nm: filaments.map(|f| assembly.length_of(f)).collect(),
             fixed,
-        }
+            estimate: plan.estimate().copied(),
+        };
+        Ok((full, assembly))
+    }
+
+    /// Default time step of a motion (ns).
+    pub(super) fn default_ns(&self) -> Option<f64> {
+        self.estimate.map(|estimate| estimate.time_step_ns)
     }
 
     pub(super) fn free(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.fixed.len()).filter(|f| self.fixed[*f].is_none())
     }
 
-    pub(super) fn resolved(&self, rods: &Rods, windows: &[Vec<[f64; 2]>]) -> Scene {
-        let mut scene = self.with_sections(rods.segment_nm, windows);
+    /// Returns the scene with monomers in the `windows` (nm) of each filament and rods of a law elsewhere.
+    pub(super) fn resolved(
+        &self,
+        law: &RodLaw,
+        segment_nm: f64,
+        windows: &[Vec<[f64; 2]>],
+    ) -> Scene {
+        let rotary_inertia = match self.scene.task {
+            Task::Dynamics(_) => RotaryInertia::RigidSegment,
+            Task::Brownian(_) | Task::Equilibrium(_) => RotaryInertia::CrossSection,
+        };
+        let mut scene = self.with_sections(segment_nm, windows);
         for (filament, fixed) in scene.filaments_mut().zip(&self.fixed) {
             if fixed.is_none() && filament.sections.iter().any(Section::is_rod) {
                 filament.rod = RodModel {
-                    rotary_inertia: rods.inertia,
-                    ..RodModel::with_law(rods.law.clone())
+                    rotary_inertia,
+                    ..RodModel::with_law(law.clone())
                 };
             }
         }
@@ -156,10 +179,6 @@ impl FullResolution {
             }
         }
         scene
-    }
-
-    pub(super) fn no_windows(&self) -> Vec<Vec<[f64; 2]>> {
-        vec![Vec::new(); self.fixed.len()]
     }
 
     /// Returns windows of `width_nm` about the `places` of each filament; `None` if they cover most of the length or nothing.
@@ -237,14 +256,9 @@ fn sections(length_nm: f64, windows: &[[f64; 2]], segment_nm: f64) -> Vec<Sectio
 
 /// Returns the number of segments with a length closest to `segment_nm`, at least 1, with segments that are permitted in a
 /// heat bath.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a filament has fewer segments than 2^53"
-)]
 fn segments(length_nm: f64, segment_nm: f64) -> usize {
     let most = (length_nm / Homogenised::SHORTEST_HEATED_NM).floor();
-    (length_nm / segment_nm).round().min(most).max(1.0) as usize
+    to_count((length_nm / segment_nm).round().min(most).max(1.0))
 }
 
 /// Returns windows about `places`. Windows merge if the rod between them would be too short, and extend to an end of the

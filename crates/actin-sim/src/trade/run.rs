@@ -1,9 +1,11 @@
 //! One run of a candidate: its records and its time, including the assembly.
 
 use super::model_error;
+use crate::run::InterruptibleTrajectory;
 use crate::scene::{Scene, SceneProblem, Task};
-use crate::{Assembly, Counts, Plan, Record, RunError, Sink, StableStates};
+use crate::{Assembly, Plan, Record, RunError, StableStates};
 use std::time::{Duration, Instant};
+use thiserror::Error;
 
 /// Time (s) below which runs are repeated; the shortest time counts.
 const SHORT_S: f64 = 0.05;
@@ -20,11 +22,18 @@ pub(super) struct Limits<'a> {
     pub is_interrupted: &'a dyn Fn() -> bool,
 }
 
+impl Limits<'_> {
+    pub(super) const NONE: Limits<'static> = Limits {
+        budget: None,
+        records: None,
+        is_interrupted: &|| false,
+    };
+}
+
 pub(super) struct RunResult {
     pub assembly: Assembly,
     /// Compared records.
     pub records: Vec<Record>,
-    pub counts: Counts,
     /// Time of assembly and run (s).
     pub wall_s: f64,
     /// Number of force evaluations.
@@ -35,11 +44,34 @@ pub(super) struct RunResult {
     pub is_cut: bool,
 }
 
-#[derive(Clone, Debug)]
+impl RunResult {
+    /// Returns the last record.
+    ///
+    /// # Panics
+    /// If a limit ended the run before its first record.
+    pub(super) fn last(&self) -> &Record {
+        self.records.last().expect("a completed run has a record")
+    }
+}
+
+#[derive(Clone, Debug, Error)]
 pub(super) enum TrialFailure {
+    #[error("interrupted")]
     Interrupted,
-    Refused(SceneProblem),
+    #[error(transparent)]
+    Refused(#[from] SceneProblem),
+    #[error("{0}")]
     Failed(String),
+}
+
+impl TrialFailure {
+    /// Returns the problem of sections that depend on the failed run.
+    pub(super) fn into_problem(self, rule: &str) -> SceneProblem {
+        match self {
+            Self::Refused(problem) => problem,
+            failure => SceneProblem::new("filament.sections", "", format!("{rule}: {failure}")),
+        }
+    }
 }
 
 /// Assembles and runs a scene; repeats short runs for their time.
@@ -55,18 +87,16 @@ pub(super) fn run(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, TrialF
 
 pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, TrialFailure> {
     let began = Instant::now();
-    let assembly = Assembly::build(scene).map_err(TrialFailure::Refused)?;
-    let plan = Plan::new(&assembly).map_err(TrialFailure::Refused)?;
-    let mut recorder = Recorder {
-        limits,
-        began,
-        records: Vec::new(),
-        is_cut: false,
-    };
-    let outcome = plan.execute(None, &mut recorder, model_error);
-    let Recorder {
-        records, is_cut, ..
-    } = recorder;
+    let assembly = Assembly::build(scene)?;
+    let plan = Plan::new(&assembly)?;
+    let mut is_cut = false;
+    let mut sink = InterruptibleTrajectory::new(|records: &[Record]| {
+        is_cut |= limits.budget.is_some_and(|budget| began.elapsed() > budget);
+        let has_enough = limits.records.is_some_and(|most| records.len() >= most);
+        is_cut || has_enough || (limits.is_interrupted)()
+    });
+    let outcome = plan.execute(None, &mut sink, model_error);
+    let records = sink.trajectory.records;
     let wall_s = began.elapsed().as_secs_f64();
     if (limits.is_interrupted)() {
         return Err(TrialFailure::Interrupted);
@@ -76,11 +106,9 @@ pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, T
         error @ RunError::Failed(_) => TrialFailure::Failed(error.to_string()),
     })?;
     let records = compared(scene, records);
-    let counts = assembly.counts();
     Ok(RunResult {
         assembly,
         records,
-        counts,
         wall_s,
         evaluations: outcome.force_evaluations,
         states: outcome.equilibrium.and_then(|report| report.states),
@@ -107,38 +135,4 @@ fn compared(scene: &Scene, mut records: Vec<Record>) -> Vec<Record> {
     };
     records.retain(is_stage_end);
     records
-}
-
-/// Keeps the records of a run until a limit.
-struct Recorder<'a> {
-    limits: Limits<'a>,
-    began: Instant,
-    records: Vec<Record>,
-    is_cut: bool,
-}
-
-impl Sink for Recorder<'_> {
-    fn record(&mut self, record: &Record) {
-        self.records.push(record.clone());
-    }
-
-    fn is_interrupted(&mut self) -> bool {
-        let budget = self.limits.budget;
-        self.is_cut |= budget.is_some_and(|budget| self.began.elapsed() > budget);
-        let has_enough = self
-            .limits
-            .records
-            .is_some_and(|most| self.records.len() >= most);
-        self.is_cut || has_enough || (self.limits.is_interrupted)()
-    }
-}
-
-impl std::fmt::Display for TrialFailure {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Interrupted => write!(f, "interrupted"),
-            Self::Refused(problem) => write!(f, "{problem}"),
-            Self::Failed(cause) => write!(f, "{cause}"),
-        }
-    }
 }

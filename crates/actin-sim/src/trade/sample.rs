@@ -8,11 +8,8 @@ use crate::scene::{RandomPart, Scene};
 pub(super) const SEEDS: u64 = 4;
 
 pub(super) struct Sample {
-    pub counts: Counts,
     /// Time of one run (s); in heat the mean over seeds.
     pub wall_s: f64,
-    /// True if the time limit ended a run.
-    pub is_cut: bool,
     pub values: Values,
     /// Standard error of each item, in its unit; zero without heat.
     pub standard_errors: Vec<f64>,
@@ -27,29 +24,15 @@ impl Sample {
         measurer: &Measurer,
         limits: Limits<'_>,
     ) -> Result<Self, TrialFailure> {
-        if scene.thermal().is_some() {
-            return Self::in_heat(scene, measurer, limits);
+        if scene.thermal().is_none() {
+            let last_run = run(scene, limits)?;
+            let values = measurer.values(&last_run.assembly, &last_run.records);
+            return Ok(Self::from_runs(last_run.wall_s, &[values], last_run));
         }
-        let last_run = run(scene, limits)?;
-        Ok(Self {
-            counts: last_run.counts,
-            wall_s: last_run.wall_s,
-            is_cut: last_run.is_cut,
-            values: measurer.values(&last_run.assembly, &last_run.records),
-            standard_errors: vec![0.0; measurer.items.len()],
-            last_run,
-        })
-    }
-
-    fn in_heat(
-        scene: &Scene,
-        measurer: &Measurer,
-        limits: Limits<'_>,
-    ) -> Result<Self, TrialFailure> {
         let mut all = Vec::new();
         let mut wall_s = 0.0;
-        let mut last = None;
-        for seed in 1..=SEEDS {
+        let mut seed = 1;
+        loop {
             let mut seeded = scene.clone();
             for drawn in RandomPart::ALL {
                 seeded.reseed(drawn, seed);
@@ -57,22 +40,25 @@ impl Sample {
             let last_run = run_once(&seeded, limits)?;
             wall_s += last_run.wall_s / SEEDS as f64;
             all.push(measurer.values(&last_run.assembly, &last_run.records));
-            let is_cut = last_run.is_cut;
-            last = Some(last_run);
-            if is_cut {
-                break;
+            if last_run.is_cut || seed == SEEDS {
+                return Ok(Self::from_runs(wall_s, &all, last_run));
             }
+            seed += 1;
         }
-        let last_run = last.expect("there is a seed");
-        let (values, standard_errors) = mean(&all);
-        Ok(Self {
-            counts: last_run.counts,
+    }
+
+    fn from_runs(wall_s: f64, all: &[Values], last_run: RunResult) -> Self {
+        let (values, standard_errors) = mean(all);
+        Self {
             wall_s,
-            is_cut: last_run.is_cut,
             values,
             standard_errors,
             last_run,
-        })
+        }
+    }
+
+    pub(super) fn counts(&self) -> Counts {
+        self.last_run.assembly.counts()
     }
 }
 

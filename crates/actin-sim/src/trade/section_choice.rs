@@ -1,13 +1,14 @@
 //! Choice of sections before a run, for a wanted accuracy.
 
 use super::ladder::{self, Proposal};
-use super::measure::{Measure, Measurer, Values};
-use super::resolution::{FullResolution, every_monomer_of, with_records_of};
-use super::run::{Limits, RunResult, TrialFailure, run_once};
+use super::measure::{Measure, Measurer};
+use super::resolution::{FullResolution, every_monomer_of};
+use super::run::{Limits, RunResult, run_once};
 use super::worst;
-use crate::scene::{Adaptive, Scene, SceneProblem, Section, Task};
-use crate::{Assembly, Plan};
+use crate::scene::{Adaptive, Scene, SceneProblem, Task};
+use crate::{Assembly, Estimate};
 use actin_assembly::SectionChoice;
+use actin_assembly::whole::to_count;
 use std::time::Instant;
 
 /// Limit of the bond evaluations of a reference motion, a few seconds of time. The comparison of a longer motion covers
@@ -19,6 +20,22 @@ const FEWEST_RECORDS: usize = 10;
 /// Evaluation time of a rod segment under `Homogenised`, in evaluations of a bond.
 const BONDS_PER_SEGMENT: f64 = 15.0;
 
+/// Builds a scene; chooses automatic sections first.
+///
+/// # Errors
+/// As [`Assembly::build`]; if no sections can be chosen.
+pub fn build(scene: &Scene) -> Result<Assembly, SceneProblem> {
+    let mut filaments = scene.filaments();
+    if filaments.all(|filament| filament.sections.adaptive().is_none()) {
+        return Assembly::build(scene);
+    }
+    let (scene, chosen) = choose(scene)?;
+    let mut built = Assembly::build(&scene)?;
+    built.build_s += chosen.wall_s;
+    built.chosen = Some(chosen);
+    Ok(built)
+}
+
 /// Returns the scene with explicit sections in place of `Adaptive`.
 ///
 /// The choice meets the wanted errors with the least work. Work is counted in evaluations, so the choice is reproducible.
@@ -26,17 +43,21 @@ const BONDS_PER_SEGMENT: f64 = 15.0;
 ///
 /// # Errors
 /// Scenes without a reference, wanted quantities without a counterpart in the scene, a reference without a result.
-pub(crate) fn choose(scene: &Scene) -> Result<(Scene, SectionChoice), SceneProblem> {
+fn choose(scene: &Scene) -> Result<(Scene, SectionChoice), SceneProblem> {
     let began = Instant::now();
     let choice = Choice::new(scene)?;
+    let (full, assembly) = choice.full_resolution()?;
+    let measures: Vec<Measure> = choice.wanted.iter().map(|(one, _)| one.clone()).collect();
+    let measurer = Measurer::new(&assembly, &measures)?;
     let is_equilibrium = matches!(scene.task, Task::Equilibrium(_));
-    let (written, mut chosen) = if is_equilibrium && choice.most_monomers.is_none() {
-        choice.every_monomer()?
+    let (resolved, mut chosen) = if is_equilibrium && choice.most_monomers.is_none() {
+        let chosen = choice.chosen("every monomer", assembly.counts().monomers);
+        (full.scene, chosen)
     } else {
-        choice.by_trial()?
+        choice.by_trial(&full, &assembly, measurer)?
     };
     chosen.wall_s = began.elapsed().as_secs_f64();
-    Ok((written, chosen))
+    Ok((choice.with_sections_of(&resolved), chosen))
 }
 
 struct Choice<'a> {
@@ -98,27 +119,7 @@ impl<'a> Choice<'a> {
                 reason,
             ));
         }
-        let assembly = Assembly::build(&every)?;
-        let plan = Plan::new(&assembly)?;
-        let mut full = FullResolution::new(&assembly, fixed);
-        full.scene = with_records_of(every, plan.scene());
-        Ok((full, assembly))
-    }
-
-    fn measurer(&self, assembly: &Assembly) -> Result<Measurer, SceneProblem> {
-        let wanted = self.wanted.iter();
-        let measures: Vec<Measure> = wanted.map(|(measure, _)| measure.clone()).collect();
-        Measurer::new(assembly, &measures)
-    }
-
-    fn every_monomer(&self) -> Result<(Scene, SectionChoice), SceneProblem> {
-        let (full, assembly) = self.full_resolution()?;
-        self.measurer(&assembly)?;
-        let monomers = assembly.counts().monomers;
-        Ok((
-            self.with_sections_of(&full.scene),
-            self.chosen("every monomer", monomers),
-        ))
+        FullResolution::new(every, fixed)
     }
 
     fn with_sections_of(&self, other: &Scene) -> Scene {
@@ -126,71 +127,68 @@ impl<'a> Choice<'a> {
         let filaments = scene.filaments_mut().zip(other.filaments());
         for ((filament, other), is_chosen) in filaments.zip(&self.adaptive) {
             if *is_chosen {
-                filament.sections = other
-                    .sections
-                    .iter()
-                    .cloned()
-                    .collect::<Vec<Section>>()
-                    .into();
+                filament.sections = other.sections.clone();
             }
         }
         scene
     }
 
-    fn by_trial(&self) -> Result<(Scene, SectionChoice), SceneProblem> {
-        let (full, assembly) = self.full_resolution()?;
-        let mut measurer = self.measurer(&assembly)?;
-        let records = records_of(&assembly)?;
-        let reference = trial(&full.scene, records.map(|(first, _)| first))?;
+    /// Returns the scene of the best resolution.
+    fn by_trial(
+        &self,
+        full: &FullResolution,
+        assembly: &Assembly,
+        mut measurer: Measurer,
+    ) -> Result<(Scene, SectionChoice), SceneProblem> {
+        let bonds = assembly.counts().bonds;
+        let records = full.estimate.map(|all| compared_records(&all, bonds));
+        let limits = Limits {
+            records,
+            ..Limits::NONE
+        };
+        let reference = run_once(&full.scene, limits)
+            .map_err(|failure| failure.into_problem("cannot be chosen: the run fails"))?;
         let values = measurer.values(&reference.assembly, &reference.records);
         measurer.set_scales(&values);
-        let mut tried = vec![self.assess(
-            "every monomer",
-            &full.scene,
-            &reference,
-            vec![0.0; measurer.items.len()],
-        )];
-        for Proposal { name, scene } in ladder::sections(&full) {
+        let exact = vec![0.0; self.wanted.len()];
+        let mut tried = vec![self.assess("every monomer", &full.scene, &reference, exact)];
+        for Proposal { name, scene } in ladder::sections(full) {
             // Resolutions without a result are not candidates.
-            let Ok(result) = trial(&scene, records.map(|(first, _)| first)) else {
+            let Ok(result) = run_once(&scene, limits) else {
                 continue;
             };
             let found = measurer.values(&result.assembly, &result.records);
-            tried.push(self.assess(
-                &name,
-                &scene,
-                &result,
-                self.errors(&measurer, (&values, &found)),
-            ));
+            let errors = self.errors(&measurer, &measurer.errors(&values, &found));
+            tried.push(self.assess(&name, &scene, &result, errors));
         }
         let best = self.best(&tried)?;
-        let mut chosen = self.chosen(&best.name, best.monomers);
-        chosen.errors.clone_from(&best.errors);
-        chosen.is_met = best.is_good;
-        chosen.share = records.map_or(1.0, |(first, all)| (first as f64 / all as f64).min(1.0));
-        chosen.tried = tried.len() - 1;
-        Ok((self.with_sections_of(&best.scene), chosen))
+        let share = full.estimate.zip(records);
+        let share = share.map(|(all, first)| (first as f64 / all.records() as f64).min(1.0));
+        let chosen = SectionChoice {
+            errors: best.errors.clone(),
+            is_met: best.excess <= 1.0,
+            share: share.unwrap_or(1.0),
+            tried: tried.len() - 1,
+            ..self.chosen(&best.name, best.monomers)
+        };
+        Ok((best.scene.clone(), chosen))
     }
 
-    fn errors(&self, measurer: &Measurer, (values, found): (&Values, &Values)) -> Vec<f64> {
-        let all = measurer.errors(values, found);
-        let of_wanted = |measure: &Measure| {
-            let items = measurer.items.iter().zip(&all);
+    /// Returns the largest error of each wanted quantity, from the `errors` of all items.
+    fn errors(&self, measurer: &Measurer, errors: &[Option<f64>]) -> Vec<f64> {
+        let of_wanted = |(measure, _): &(Measure, f64)| {
+            let items = measurer.items.iter().zip(errors);
             let of = items.filter(|(item, _)| item.measure == *measure);
             worst(&of.map(|(_, error)| *error).collect::<Vec<_>>())
         };
-        self.wanted
-            .iter()
-            .map(|(measure, _)| of_wanted(measure))
-            .collect()
+        self.wanted.iter().map(of_wanted).collect()
     }
 
     fn assess(&self, name: &str, scene: &Scene, result: &RunResult, errors: Vec<f64>) -> Trial {
         let limits = self.wanted.iter().zip(&errors);
-        let excess = limits
-            .map(|((_, limit), error)| error / limit)
-            .fold(0.0, f64::max);
-        let counts = result.counts;
+        let ratios = limits.map(|((_, limit), error)| error / limit);
+        let excess = ratios.fold(0.0, f64::max);
+        let counts = result.assembly.counts();
         let each = counts.bonds as f64 + BONDS_PER_SEGMENT * counts.segments as f64;
         Trial {
             name: name.to_owned(),
@@ -198,7 +196,6 @@ impl<'a> Choice<'a> {
             monomers: counts.monomers,
             errors,
             excess,
-            is_good: excess <= 1.0,
             work: result.evaluations as f64 * each,
         }
     }
@@ -208,7 +205,7 @@ impl<'a> Choice<'a> {
     fn best<'t>(&self, tried: &'t [Trial]) -> Result<&'t Trial, SceneProblem> {
         let most = self.most_monomers.unwrap_or(usize::MAX);
         let allowed = || tried.iter().filter(|one| one.monomers <= most);
-        let good = allowed().filter(|one| one.is_good);
+        let good = allowed().filter(|one| one.excess <= 1.0);
         let least = good.min_by(|a, b| a.work.total_cmp(&b.work));
         let nearest = || allowed().min_by(|a, b| a.excess.total_cmp(&b.excess));
         least.or_else(nearest).ok_or_else(|| {
@@ -218,23 +215,13 @@ impl<'a> Choice<'a> {
     }
 }
 
-/// Returns the number of compared records of a motion and the number of all its records; `None` for an equilibrium.
-fn records_of(assembly: &Assembly) -> Result<Option<(usize, usize)>, SceneProblem> {
-    let plan = Plan::new(assembly)?;
-    let Some(estimate) = plan.estimate() else {
-        return Ok(None);
-    };
-    let all =
-        usize::try_from(estimate.steps / estimate.steps_between_records + 1).unwrap_or(usize::MAX);
-    let work = estimate.force_evaluations as f64 * assembly.counts().bonds as f64;
+/// Returns the number of records of a motion that are compared.
+fn compared_records(motion: &Estimate, bonds: usize) -> usize {
+    let all = usize::try_from(motion.records()).unwrap_or(usize::MAX);
+    let work = motion.force_evaluations as f64 * bonds as f64;
     let share = MOST_WORK / work.max(MOST_WORK);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a share of a number of records"
-    )]
-    let first = (share * all as f64).ceil() as usize;
-    Ok(Some((first.max(FEWEST_RECORDS).min(all), all)))
+    let first = to_count((share * all as f64).ceil());
+    first.max(FEWEST_RECORDS).min(all)
 }
 
 struct Trial {
@@ -244,21 +231,5 @@ struct Trial {
     errors: Vec<f64>,
     /// Largest ratio of an error to its limit.
     excess: f64,
-    is_good: bool,
     work: f64,
-}
-
-fn trial(scene: &Scene, records: Option<usize>) -> Result<RunResult, SceneProblem> {
-    let limits = Limits {
-        budget: None,
-        records,
-        is_interrupted: &|| false,
-    };
-    run_once(scene, limits).map_err(|failure| match failure {
-        TrialFailure::Refused(problem) => problem,
-        TrialFailure::Interrupted | TrialFailure::Failed(_) => {
-            let rule = format!("cannot be chosen: the run fails: {failure}");
-            SceneProblem::new("filament.sections", "", rule)
-        }
-    })
 }

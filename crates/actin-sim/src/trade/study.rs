@@ -47,7 +47,7 @@ pub fn trade(
 ) -> Result<Trade, TradeError> {
     check(scene, options)?;
     let mut study = Study::begin(scene, options, watch)?;
-    let steps = ladder::steps(&study.setup.full.scene, study.setup.default_ns);
+    let steps = ladder::steps(&study.setup.full);
     study.run_candidates(steps);
     if scene.thermal().is_none() {
         study.run_drawn();
@@ -196,7 +196,6 @@ impl<'a> Study<'a> {
     fn resolutions(&self, written: &Scene) -> Vec<Proposal> {
         let mut proposals = ladder::resolutions(
             &self.setup.full,
-            self.setup.default_ns,
             &self.bends_most,
             self.setup.options.is_all,
         );
@@ -241,8 +240,8 @@ impl<'a> Study<'a> {
         };
         match self.run(&candidate.name, &candidate.scene) {
             Ok(sample) => {
-                (candidate.counts, candidate.wall_s) = (sample.counts, sample.wall_s);
-                if sample.is_cut {
+                (candidate.counts, candidate.wall_s) = (sample.counts(), sample.wall_s);
+                if sample.last_run.is_cut {
                     candidate.failure = Some("exceeds the budget".to_owned());
                 } else {
                     candidate.errors = self.errors(&sample.values);

@@ -1,4 +1,4 @@
-//! Mean and standard error of a correlated series by block averages.
+//! Means of correlated series with standard errors by block averages.
 
 /// Smallest number of blocks for an error, whose relative error is then about a quarter.
 const FEWEST: u64 = 8;

@@ -1,5 +1,0 @@
-//! Means of correlated series with standard errors.
-
-mod blocks;
-
-pub use blocks::{BlockAverages, Estimate};
