@@ -2,10 +2,10 @@
 
 use super::bend::BendFits;
 use super::column::Column;
-use super::data::TwistData;
 use super::measured::BendData;
 use super::parameter_fit::ParameterFit;
 use super::search::Basis;
+use super::table::FitData;
 use super::twist::{TwistFits, rms};
 use crate::ProgressSink;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
@@ -14,13 +14,14 @@ use actin_fit::{Goodness, LinearFit, Precision, Status};
 /// Relative difference of chi squared below which two starts found the same minimum.
 const SAME: f64 = 1e-6;
 
-pub(super) fn twist(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
+pub(super) fn twist(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
     tell(format_args!("data: {}", data.source));
     length(tell, data, fits);
     rigidity(tell, data, fits);
+    fits.smallest.print(tell);
 }
 
-fn length(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
+fn length(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
     let xi = &data.length;
     tell(format_args!(
         "\nxi - 1 = sum p_i kappa^i, {} values",
@@ -34,19 +35,9 @@ fn length(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
     ));
     tell(format_args!("\nthe same without p_0"));
     polynomial(tell, &fits.without_offset, &published[1..]);
-    tell(format_args!(
-        "\nxi - 1 = slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3"
-    ));
-    basis(tell, &fits.rooted.basis);
-    let law = fits.rooted.law;
-    tell(format_args!(
-        "  rms {:.3e}, largest {:.1e}",
-        fits.rooted.basis.goodness().rms,
-        largest(xi, |k| law.jet(k)[0], false)
-    ));
 }
 
-fn rigidity(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
+fn rigidity(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
     let b3 = &data.rigidity;
 
     tell(format_args!(
@@ -69,22 +60,6 @@ fn rigidity(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
         "  rms {:.2} % relative (equal weights: {:.2} %)",
         relative(&fits.tanh_relative),
         relative(&fits.tanh)
-    ));
-    saturating(tell, data, fits);
-}
-
-fn saturating(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
-    let b3 = &data.rigidity;
-    tell(format_args!(
-        "\nB3 = rest + rise k^2/(k^2 + slow |k| + half^2), relative weights"
-    ));
-    nonlinear(tell, &fits.sided.1, None);
-    let law = fits.sided.0;
-    tell(format_args!(
-        "  rms {:.2} % relative, largest {:.1} %; {:.1} pN nm^2",
-        100.0 * rms(b3, |k| law.secant(k), true),
-        100.0 * largest(b3, |k| law.secant(k), true),
-        rms(b3, |k| law.secant(k), false)
     ));
 }
 
@@ -176,7 +151,7 @@ pub(super) fn chi_squared(tell: ProgressSink<'_>, goodness: &Goodness) {
 }
 
 pub(super) fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published: Option<&[f64]>) {
-    let (fit, parameters) = (&found.fit, found.form.parameters);
+    let (fit, parameters) = (&found.fit, &found.form.parameters);
     for (j, ((key, unit), value)) in parameters.iter().zip(&fit.parameters).enumerate() {
         let error = standard_error(&fit.precision, j);
         let theirs = published.map_or_else(String::new, |p| format!(", published {:11.4e}", p[j]));
@@ -192,7 +167,7 @@ pub(super) fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published:
             "  {key:18} = {value:12.5e} +- {error} {unit}{theirs}{status}"
         ));
     }
-    let keys: Vec<&str> = parameters.iter().map(|(key, _)| *key).collect();
+    let keys: Vec<&str> = parameters.iter().map(|(key, _)| key.as_str()).collect();
     tell(format_args!(
         "  largest correlation {}",
         strongest(&fit.precision, &keys)

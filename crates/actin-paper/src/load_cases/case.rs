@@ -213,7 +213,7 @@ pub(super) fn azimuths_deg(count: u32) -> Vec<f64> {
     (0..count).map(|k| f64::from(k) * step).collect()
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Group {
     Cantilever,
     PulledCantilever,
@@ -227,10 +227,11 @@ pub(super) enum Group {
     /// Free filaments in a heat bath.
     Thermal,
     /// Reported without a bound.
+    #[default]
     Beside,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Bound {
     /// Relative difference.
     Relative(f64),
@@ -241,6 +242,7 @@ pub(super) enum Bound {
     /// Range over the mean.
     Spread(f64),
     /// No bound.
+    #[default]
     Open,
 }
 

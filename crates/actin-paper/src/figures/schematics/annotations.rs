@@ -90,6 +90,16 @@ pub(super) fn frame(drawing: &Drawing<'_>, frame: usize, at: Vector3, length_nm:
     [0, 1, 2].map(axis).into()
 }
 
+/// Frames of junction bonds, each at the middle of its bond.
+pub(super) fn bond_frames(drawing: &Drawing<'_>, length_nm: f64) -> Vec<Item> {
+    let bonds = drawing.assembly.junction_bonds().into_iter();
+    let frames = bonds.flat_map(|bond| {
+        let [monomer, node] = bodies::ends_of(&bond, drawing.state);
+        frame(drawing, bond.frame, 0.5 * (monomer + node), length_nm)
+    });
+    frames.collect()
+}
+
 /// Position of a clamped end (nm, lab frame), and unit vectors outward and across the built filament. `None` if the
 /// end is free.
 fn held(drawing: &Drawing<'_>, filament: usize, end: End) -> Option<[Vector3; 3]> {
