@@ -2,7 +2,8 @@
 
 use super::draft::Draft;
 use super::tables;
-use crate::fit::{FitData, TwistFits, UnfittedData, draw, rms};
+use crate::fit::{FitData, TwistFits, UnfittedData, draw};
+use crate::statistics::rms;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_draw::report::{Origin, Picture, Row};
 
@@ -75,15 +76,14 @@ fn parameters(draft: &mut Draft<'_>, fits: &TwistFits) {
 /// Rows of the differences of our monomers from rows and laws of the paper.
 fn monomer_rows(draft: &mut Draft<'_>, name: &str, ours: &FitData, paper: &FitData) {
     // Both columns contain the curvatures of the paper in the same order.
-    let differences = |ours: &[f64], theirs: &[f64]| {
-        crate::statistics::rms(ours.iter().zip(theirs).map(|(a, b)| a - b))
-    };
+    let differences =
+        |ours: &[f64], theirs: &[f64]| rms(ours.iter().zip(theirs).map(|(a, b)| a - b));
     let (b3, xi) = (TanhTwist::published(), PolynomialStretch::published());
     let (rows, law) = ("the rows of the paper", "the published law");
     let b3_rows = differences(&ours.rigidity.value, &paper.rigidity.value);
     let xi_rows = differences(&ours.length.value, &paper.length.value);
-    let b3_law = rms(&ours.rigidity, |k| b3.secant(k), false);
-    let xi_law = rms(&ours.length, |k| xi.extension(k), false);
+    let b3_law = ours.rigidity.rms(|k| b3.secant(k), false);
+    let xi_law = ours.length.rms(|k| xi.extension(k), false);
     for (quantity, unit, value, from) in [
         ("b3_rms", "pN nm^2", b3_rows, rows),
         ("b3_rms/published", "pN nm^2", b3_law, law),

@@ -5,14 +5,9 @@ use super::column::Column;
 use super::parameter_fit::Fault;
 use super::search::{Basis, LawFit, rooted, sided, stiffened, stretched};
 use super::table::FitData;
-use super::twist::rms;
-use super::{pictures, print, write};
-use crate::ProgressSink;
 use actin_cosserat::{StretchLaw, TwistStretch};
-use actin_draw::report::write_csv;
 use actin_fit::Model;
 use actin_sim::{BendLaw, RodLaws, TwistLaw};
-use std::path::Path;
 
 /// Law fitted to the columns of a group.
 pub(crate) struct GroupFit {
@@ -20,11 +15,12 @@ pub(crate) struct GroupFit {
     pub(super) column: Column,
     pub law: Box<dyn Fn(f64) -> f64>,
     pub basis: Basis,
-    remark: Option<String>,
+    /// Line with the value of a single stretching rigidity.
+    pub(super) remark: Option<String>,
 }
 
 pub(crate) struct GroupFits {
-    fits: Vec<GroupFit>,
+    pub(super) fits: Vec<GroupFit>,
     /// The value of `law:` in a scene. Parts without data keep the values of the material.
     pub(super) laws: RodLaws,
 }
@@ -74,27 +70,6 @@ impl GroupFits {
         fits.flat_map(|fit| fit.basis.faults()).collect()
     }
 
-    pub(super) fn print(&self, tell: ProgressSink<'_>) {
-        for fit in &self.fits {
-            fit.print(tell);
-        }
-    }
-
-    /// Writes the laws as RON, and each law with its data as CSV and SVG.
-    pub(super) fn write(&self, out: &Path) -> Result<(), String> {
-        write::law(&self.laws, "rod-law.ron", out)?;
-        for fit in &self.fits {
-            let rows = fit.column.pairs().map(|(x, value)| {
-                let numbers = [x, value, (fit.law)(x)];
-                numbers.map(write::number).to_vec()
-            });
-            let header = [&*fit.group.x, &fit.group.value, "law"];
-            write_csv(out, &format!("{}.csv", fit.group.name), &header, rows)?;
-            pictures::curve_with_data(fit, out)?;
-        }
-        Ok(())
-    }
-
     fn add(
         &mut self,
         group: usize,
@@ -109,42 +84,6 @@ impl GroupFits {
             basis,
             remark: None,
         });
-    }
-}
-
-impl GroupFit {
-    /// Prints form, parameters and deviations.
-    fn print(&self, tell: ProgressSink<'_>) {
-        let (column, goodness) = (&self.column, self.basis.goodness());
-        let weights = if column.is_known() {
-            "weighted by their standard errors"
-        } else {
-            "without standard errors"
-        };
-        let formula = &self.group.formula;
-        tell(format_args!(
-            "\n{formula}, {} values {weights}",
-            column.len()
-        ));
-        print::basis(tell, &self.basis);
-        if let Some(remark) = &self.remark {
-            tell(format_args!("{remark}"));
-        }
-        if column.is_known() {
-            print::chi_squared(tell, goodness);
-        }
-        tell(format_args!(
-            "  rms {:.3e}, largest {:.1e}",
-            rms(column, &self.law, false),
-            print::largest(column, &self.law, false)
-        ));
-        if self.group.is_rigidity {
-            tell(format_args!(
-                "  relative: rms {:.2} %, largest {:.1} %",
-                100.0 * rms(column, &self.law, true),
-                100.0 * print::largest(column, &self.law, true)
-            ));
-        }
     }
 }
 

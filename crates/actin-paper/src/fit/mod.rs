@@ -18,7 +18,7 @@ mod write;
 
 pub(crate) use pictures::{UnfittedData, draw};
 pub(crate) use table::FitData;
-pub(crate) use twist::{TwistFits, rms};
+pub(crate) use twist::TwistFits;
 
 use crate::ProgressSink;
 use bend::BendFits;
@@ -74,10 +74,10 @@ fn user_table(
     let data = FitData::from_csv(path)?;
     let fits = GroupFits::new(&data)?;
     tell(format_args!("data: {}", data.source));
-    fits.print(tell);
+    print::groups(tell, &fits);
     parameter_fit::accept(&fits.faults(), allowed)?;
     write::create(out)?;
-    fits.write(out)
+    write::groups(&fits, out)
 }
 
 /// Fits the paper's tables, or newly measured filaments.

@@ -1,12 +1,12 @@
 //! Printed results of the fits.
 
 use super::bend::BendFits;
-use super::column::Column;
+use super::groups::{GroupFit, GroupFits};
 use super::measured::BendData;
 use super::parameter_fit::ParameterFit;
 use super::search::Basis;
 use super::table::FitData;
-use super::twist::{TwistFits, rms};
+use super::twist::TwistFits;
 use crate::ProgressSink;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_fit::{Goodness, LinearFit, Precision, Status};
@@ -18,7 +18,7 @@ pub(super) fn twist(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
     tell(format_args!("data: {}", data.source));
     length(tell, data, fits);
     rigidity(tell, data, fits);
-    fits.smallest.print(tell);
+    groups(tell, &fits.smallest);
 }
 
 fn length(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
@@ -55,7 +55,7 @@ fn rigidity(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
     tell(format_args!("\nB3, published form, relative weights"));
     nonlinear(tell, &fits.tanh_relative, Some(&published.lambda));
     let relative =
-        |found: &ParameterFit| 100.0 * rms(b3, |k| fits.tanh_law(&found.fit).secant(k), true);
+        |found: &ParameterFit| 100.0 * b3.rms(|k| fits.tanh_law(&found.fit).secant(k), true);
     tell(format_args!(
         "  rms {:.2} % relative (equal weights: {:.2} %)",
         relative(&fits.tanh_relative),
@@ -63,13 +63,39 @@ fn rigidity(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
     ));
 }
 
-/// Largest difference, or relative difference, between `law` and a column.
-pub(super) fn largest(column: &Column, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
-    let differences = column.pairs().map(|(k, value)| {
-        let scale = if relative { value } else { 1.0 };
-        ((law(k) - value) / scale).abs()
-    });
-    differences.fold(0.0, f64::max)
+/// Prints form, parameters and deviations of all groups.
+pub(super) fn groups(tell: ProgressSink<'_>, fits: &GroupFits) {
+    for fit in &fits.fits {
+        group(tell, fit);
+    }
+}
+
+fn group(tell: ProgressSink<'_>, fit: &GroupFit) {
+    let (column, law) = (&fit.column, &fit.law);
+    let weights = if column.is_known() {
+        "weighted by their standard errors"
+    } else {
+        "without standard errors"
+    };
+    let (formula, count) = (&fit.group.formula, column.len());
+    tell(format_args!("\n{formula}, {count} values {weights}"));
+    basis(tell, &fit.basis);
+    if let Some(remark) = &fit.remark {
+        tell(format_args!("{remark}"));
+    }
+    if column.is_known() {
+        chi_squared(tell, fit.basis.goodness());
+    }
+    let (rms, largest) = (column.rms(law, false), column.largest_error(law, false));
+    tell(format_args!("  rms {rms:.3e}, largest {largest:.1e}"));
+    if fit.group.is_rigidity {
+        let [rms, largest] = [column.rms(law, true), column.largest_error(law, true)];
+        tell(format_args!(
+            "  relative: rms {:.2} %, largest {:.1} %",
+            100.0 * rms,
+            100.0 * largest
+        ));
+    }
 }
 
 pub(super) fn bend(tell: ProgressSink<'_>, data: &BendData, fits: &BendFits) {
@@ -128,7 +154,7 @@ fn standard_error(precision: &Precision, j: usize) -> String {
         .map_or_else(|| "   -   ".into(), |e| format!("{e:7.1e}"))
 }
 
-pub(super) fn basis(tell: ProgressSink<'_>, basis: &Basis) {
+fn basis(tell: ProgressSink<'_>, basis: &Basis) {
     match basis {
         Basis::Full(found) => nonlinear(tell, found, None),
         Basis::Simple { note, names, fit } => {
@@ -142,7 +168,7 @@ pub(super) fn basis(tell: ProgressSink<'_>, basis: &Basis) {
 }
 
 /// Prints chi squared of values with standard errors.
-pub(super) fn chi_squared(tell: ProgressSink<'_>, goodness: &Goodness) {
+fn chi_squared(tell: ProgressSink<'_>, goodness: &Goodness) {
     let freedom = goodness.degrees_of_freedom;
     tell(format_args!(
         "  chi^2 = {:.4} for {freedom} degrees of freedom; errors follow the given standard errors",
@@ -150,7 +176,7 @@ pub(super) fn chi_squared(tell: ProgressSink<'_>, goodness: &Goodness) {
     ));
 }
 
-pub(super) fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published: Option<&[f64]>) {
+fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published: Option<&[f64]>) {
     let (fit, parameters) = (&found.fit, &found.form.parameters);
     for (j, ((key, unit), value)) in parameters.iter().zip(&fit.parameters).enumerate() {
         let error = standard_error(&fit.precision, j);

@@ -1,7 +1,7 @@
 //! Fits of B3(kappa) and xi(kappa).
 
 use super::catalogue::Form;
-use super::column::{Column, Weight};
+use super::column::Weight;
 use super::forms::Tanh;
 use super::groups::GroupFits;
 use super::parameter_fit::{Fault, ParameterFit};
@@ -77,9 +77,9 @@ impl TwistFits {
                 PolynomialStretch::published(),
                 PolynomialStretch::published_without_offset(),
             ]
-            .map(|law| rms(length, |k| law.jet(k)[0], false)),
+            .map(|law| length.rms(|k| law.jet(k)[0], false)),
             published_b3_rms: [false, true]
-                .map(|relative| rms(rigidity, |k| wide(published).secant(k), relative)),
+                .map(|relative| rigidity.rms(|k| wide(published).secant(k), relative)),
             ranges: [rigidity.range(), length.range()],
         })
     }
@@ -129,15 +129,6 @@ fn wide(law: TanhTwist) -> TanhTwist {
         range: f64::MAX,
         ..law
     }
-}
-
-/// Root mean square of the differences, or relative differences, between `law` and a column.
-pub(crate) fn rms(column: &Column, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
-    let squares = column.pairs().map(|(k, value)| {
-        let scale = if relative { value } else { 1.0 };
-        ((law(k) - value) / scale).powi(2)
-    });
-    (squares.sum::<f64>() / column.value.len() as f64).sqrt()
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Output of the fits: laws as RON for scenes, curves and data as CSV.
 
 use super::bend::BendFits;
+use super::groups::GroupFits;
 use super::measured::{BendData, Point};
+use super::pictures::curve_with_data;
 use super::table::FitData;
 use super::twist::TwistFits;
 use actin_cosserat::{PolynomialStretch, TanhTwist, TwistStretch};
@@ -32,8 +34,23 @@ pub(super) fn laws(fits: &TwistFits, bend: Option<&BendFits>, out: &Path) -> Res
     law(&published, "published-form.ron", out)
 }
 
+/// Writes the laws of groups as RON, and each law with its data as CSV and SVG.
+pub(super) fn groups(fits: &GroupFits, out: &Path) -> Result<(), String> {
+    law(&fits.laws, "rod-law.ron", out)?;
+    for fit in &fits.fits {
+        let rows = fit.column.pairs().map(|(x, value)| {
+            let numbers = [x, value, (fit.law)(x)];
+            numbers.map(number).to_vec()
+        });
+        let header = [&*fit.group.x, &fit.group.value, "law"];
+        write_csv(out, &format!("{}.csv", fit.group.name), &header, rows)?;
+        curve_with_data(fit, out)?;
+    }
+    Ok(())
+}
+
 /// Writes a law in the format of scenes.
-pub(super) fn law(laws: &RodLaws, name: &str, out: &Path) -> Result<(), String> {
+fn law(laws: &RodLaws, name: &str, out: &Path) -> Result<(), String> {
     let head = "// A rod law for a scene: `rod: RodModel(law: ...)`. Written by fit-parameters.\n";
     save(out, name, &format!("{head}{}\n", laws.to_ron()))
 }
@@ -75,7 +92,7 @@ pub(super) fn curves(data: &FitData, fits: &TwistFits, out: &Path) -> Result<(),
     write_csv(out, "curves.csv", &header, rows)
 }
 
-pub(super) fn number(x: f64) -> String {
+fn number(x: f64) -> String {
     format!("{x:.8e}")
 }
 

@@ -11,8 +11,8 @@ use crate::run::{SolvedScene, scenario};
 use actin_draw::report::{Picture, save};
 use actin_mechanics::Vector3;
 use actin_sim::shape::Ribbon;
-use actin_sim::{BodyKind, End, JunctionBond};
-use actin_view::{Drawing, Pose, bodies};
+use actin_sim::{BodyKind, End};
+use actin_view::{Pose, bodies};
 use sheet::Sheet;
 use std::collections::BTreeSet;
 
@@ -69,7 +69,7 @@ pub(super) fn figure2(draft: &mut Draft<'_>) -> Result<(), String> {
     let (sheet, solved) = solve(draft)?;
     let drawn = sheet.panels[0].drawing(&solved);
     let rest = &drawn.assembly.rest;
-    for (k, bond) in junction_bonds(&drawn) {
+    for (k, bond) in annotations::junction_bonds(&drawn) {
         let [length, rest_length] = [drawn.state, rest].map(|state| {
             let [monomer, node] = bodies::ends_of(&bond, state);
             (node - monomer).norm()
@@ -84,12 +84,6 @@ pub(super) fn figure2(draft: &mut Draft<'_>) -> Result<(), String> {
         draft.row(format!("bond-{k}/turn"), "deg", turn, note);
     }
     finish(draft, sheet, &solved)
-}
-
-/// Bonds of the junction, numbered from the end of the rod.
-fn junction_bonds(drawn: &Drawing<'_>) -> Vec<(usize, JunctionBond)> {
-    let bonds = drawn.assembly.junction_bonds();
-    (1..=bonds.len()).rev().zip(bonds).collect()
 }
 
 /// Figure 3: cantilever, buckled filament, and filament on linkers.

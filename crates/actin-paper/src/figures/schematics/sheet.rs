@@ -1,7 +1,6 @@
 //! Sheets of `data/schematics.ron`: panels of drawn scenes, with a legend.
 
 use super::annotations;
-use super::junction_bonds;
 use super::style::LegendPart;
 use crate::palette;
 use crate::run::SolvedScene;
@@ -172,7 +171,7 @@ impl Labels {
 fn junction_labels(drawn: &Drawing<'_>) -> Vec<Label> {
     let mut labels = Vec::new();
     let mut name = |at, text: String, offset| labels.push(Label { at, text, offset });
-    for (k, bond) in junction_bonds(drawn) {
+    for (k, bond) in annotations::junction_bonds(drawn) {
         let [monomer, node] = bodies::ends_of(&bond, drawn.state);
         let [monomer_offset, frame_offset] = BOND_OFFSETS[k - 1];
         let middle = 0.5 * (monomer + node);
