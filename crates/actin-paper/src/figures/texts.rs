@@ -88,7 +88,7 @@ impl ChartText {
 }
 
 fn fill(text: &str, values: Values<'_>) -> Result<String, String> {
-    let mut text = text.replace("{ends}", &palette::chosen().ends());
+    let mut text = text.replace("{ends}", palette::chosen().ends());
     for (name, value) in values {
         text = text.replace(&format!("{{{name}}}"), &value.to_string());
     }

@@ -209,7 +209,7 @@ impl Results {
     }
 
     /// Outcomes of a case from all starts at its turn.
-    fn from_starts(&self, plan: &Plan, case: Case) -> Vec<&Outcome> {
+    fn of_all_starts(&self, plan: &Plan, case: Case) -> Vec<&Outcome> {
         let starts = plan.starts_at(case.turn_deg).into_iter();
         let outcomes = starts.filter_map(|start| self.of(Case { start, ..case }));
         outcomes.collect()

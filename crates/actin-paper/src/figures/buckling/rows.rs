@@ -173,7 +173,7 @@ pub(super) fn motions(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
             let quantity = format!("dynamics_difference/{name}/{path}");
             draft.row(quantity, unit, value, &*note);
         }
-        let found = results.from_starts(plan, end.case);
+        let found = results.of_all_starts(plan, end.case);
         let same = found.iter().filter(|o| is_same(o, nearest)).count();
         let note = format!(
             "of {} starts of Newton's method that reach the equilibrium of the damped motion",

@@ -51,7 +51,7 @@ fn order_differences(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn
 }
 
 fn distinct_row(plan: &Plan, draft: &mut Draft<'_>, results: &Results, case: Case) {
-    let outcomes = results.from_starts(plan, case);
+    let outcomes = results.of_all_starts(plan, case);
     let distinct = distinct(&outcomes);
     let Some(first) = distinct.first() else {
         return;
