@@ -3,8 +3,9 @@
 use crate::workspace_root;
 use actin_mechanics::State;
 use actin_sim::{
-    Assembly, Clamp, End, Equilibrium, Filament, FreeTranslation, Outcome, Part, Plan, Record,
-    RunError, Scene, Task, Trajectory,
+    Assembly, Clamp, DragModel, DragRates, End, Equilibrium, Filament, FreeTranslation, Load,
+    Outcome, Part, Plan, Record, RunError, Scene, Section, Setting, Stage, Task, TimeCourse,
+    Trajectory,
 };
 use actin_view::Pose;
 
@@ -37,6 +38,91 @@ pub(crate) fn clamp(end: End, slides: FreeTranslation) -> Clamp {
     Clamp {
         slides,
         ..Clamp::new(end)
+    }
+}
+
+/// Sections of a filament with rods at ascending arc lengths (nm), and monomers elsewhere. `segments` gives the number of
+/// segments of a rod of this length.
+pub(crate) fn sections(
+    length_nm: f64,
+    rods: impl IntoIterator<Item = [f64; 2]>,
+    segments: impl Fn(f64) -> Option<usize>,
+) -> Vec<Section> {
+    let mut sections = Vec::new();
+    let mut reached = 0.0;
+    let rods = rods.into_iter().filter(|[from, to]| to > from);
+    for [from, to] in rods.chain([[length_nm; 2]]) {
+        let to = to.min(length_nm);
+        if from > reached {
+            sections.push(monomers(reached, from));
+        }
+        if to > from {
+            sections.push(Section::rod(from, to, segments(to - from)));
+        }
+        reached = to;
+    }
+    sections
+}
+
+pub(crate) fn monomers(from_nm: f64, to_nm: f64) -> Section {
+    Section::Ellipsoids {
+        from_nm,
+        to_nm,
+        altered: None,
+    }
+}
+
+/// Number of segments of about `segment_nm` in a rod, at least one.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a few hundred at most, and at least one"
+)]
+pub(crate) fn segments(rod_nm: f64, segment_nm: f64) -> usize {
+    (rod_nm / segment_nm).round().max(1.0) as usize
+}
+
+/// Force (pN) on the far end of the first filament.
+pub(crate) fn end_force(force_pn: impl Into<[f64; 3]>) -> Load {
+    Load::EndForce {
+        filament: 0,
+        end: End::End,
+        force_pn: force_pn.into(),
+    }
+}
+
+/// Drag rates of velocities and of angular momenta (1/ns).
+pub(crate) fn drag([translational_per_ns, rotational_per_ns]: [f64; 2]) -> DragModel {
+    DragModel::Rates(DragRates {
+        translational_per_ns,
+        rotational_per_ns,
+    })
+}
+
+/// Stage of a path of equilibria.
+pub(crate) fn stage(set: impl Into<Vec<Setting>>) -> Stage {
+    Stage {
+        set: set.into(),
+        duration_ns: None,
+        pace: TimeCourse::Smooth,
+    }
+}
+
+/// Rotation vector (deg) of an end of the first filament.
+pub(crate) fn turn(end: End, turn_deg: impl Into<[f64; 3]>) -> Setting {
+    Setting::Turn {
+        filament: 0,
+        end,
+        turn_deg: turn_deg.into(),
+    }
+}
+
+/// Displacement (nm) of an end of the first filament along the axis.
+pub(crate) fn shift(end: End, along_nm: f64) -> Setting {
+    Setting::Shift {
+        filament: 0,
+        end,
+        shift_nm: [0.0, 0.0, along_nm],
     }
 }
 

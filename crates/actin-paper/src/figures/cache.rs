@@ -8,7 +8,6 @@ use crate::workspace_root;
 use actin_draw::report::{Artefact, write_atomically};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fmt;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -21,29 +20,6 @@ pub(super) struct CachedArtefact {
     files: BTreeMap<String, String>,
     pub runs: u64,
     pub artefact: Artefact,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Reason {
-    Missing,
-    Requested,
-    Unreadable(String),
-    Outdated,
-    FileMissing(String),
-    FileChanged(String),
-}
-
-impl fmt::Display for Reason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Missing => f.write_str("not computed before"),
-            Self::Requested => f.write_str("recomputation requested"),
-            Self::Unreadable(error) => write!(f, "its record cannot be read: {error}"),
-            Self::Outdated => f.write_str("program, scenes or settings have changed"),
-            Self::FileMissing(name) => write!(f, "{name} is missing"),
-            Self::FileChanged(name) => write!(f, "{name} has been changed"),
-        }
-    }
 }
 
 #[derive(Debug)]
@@ -60,16 +36,17 @@ impl<'a> Cache<'a> {
         Ok(Self { out, fingerprint })
     }
 
-    pub(super) fn find(&self, id: &str) -> Result<CachedArtefact, Reason> {
+    /// Finds a valid artefact; the error is the reason to compute it.
+    pub(super) fn find(&self, id: &str) -> Result<CachedArtefact, String> {
         let cached = self.read(id)?;
         if cached.fingerprint != self.fingerprint {
-            return Err(Reason::Outdated);
+            return Err("program, scenes or settings have changed".into());
         }
         for (name, hash) in &cached.files {
             match fs::read(self.out.join(name)) {
-                Err(_) => return Err(Reason::FileMissing(name.clone())),
+                Err(_) => return Err(format!("{name} is missing")),
                 Ok(bytes) if hash_of(&bytes) != *hash => {
-                    return Err(Reason::FileChanged(name.clone()));
+                    return Err(format!("{name} has been changed"));
                 }
                 Ok(_) => {}
             }
@@ -102,13 +79,14 @@ impl<'a> Cache<'a> {
         self.out.join(FOLDER).join(format!("{id}.json"))
     }
 
-    fn read(&self, id: &str) -> Result<CachedArtefact, Reason> {
+    fn read(&self, id: &str) -> Result<CachedArtefact, String> {
         let path = self.record(id);
         if !path.exists() {
-            return Err(Reason::Missing);
+            return Err("not computed before".into());
         }
-        let text = fs::read_to_string(&path).map_err(|e| Reason::Unreadable(e.to_string()))?;
-        serde_json::from_str(&text).map_err(|e| Reason::Unreadable(e.to_string()))
+        let text = fs::read_to_string(&path).map_err(|e| e.to_string());
+        let read = text.and_then(|text| serde_json::from_str(&text).map_err(|e| e.to_string()));
+        read.map_err(|error| format!("its record cannot be read: {error}"))
     }
 
     /// Removes the record, its files and the temporary folder of an interrupted computation.

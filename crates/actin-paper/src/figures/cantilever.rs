@@ -7,14 +7,12 @@
 mod pictures;
 
 use super::draft::{Column, Draft, number, residuals};
-use super::model::{Model, Resolution};
+use super::model::{Model, Resolution, models};
 use super::motion::{RingDown, energy_decays, ring_down};
-use crate::run::{Shape, SolvedScene, energy, scenario};
+use super::texts::Values;
+use crate::run::{Shape, SolvedScene, drag, energy, scenario};
 use crate::statistics::{largest, sample};
-use actin_sim::{
-    Assembly, DragRates, End, Equilibrium, ForceLaw, JunctionWeight, Part, Record, Scene, Section,
-    Task,
-};
+use actin_sim::{Assembly, End, Equilibrium, Part, Record, Scene, Section, Task};
 
 const LENGTH_NM: f64 = 160.0;
 /// Lengths of rod (nm) in the paper and with `--quick`.
@@ -31,66 +29,9 @@ const SWING_NS: f64 = 150.0;
 /// Force (pN), length (nm), E (pN/nm^2) and I (nm^4) of the deflection in Section 4.1 of the paper.
 const PRINTED: [f64; 4] = [2.0, 160.0, 2000.0, 120.0];
 
-const SHARED: Model = Model {
-    words: "2 pN, junction shared",
-    ..Model::STANDARD
-};
-const FULL: Model = Model {
-    name: "full/",
-    words: "2 pN, junction full",
-    junction: JunctionWeight::Full,
-    ..SHARED
-};
-const WEAK: Model = Model {
-    name: "0.5-pN/",
-    words: "0.5 pN, junction shared",
-    is_weak: true,
-    ..SHARED
-};
-const MEAN: Model = Model {
-    name: "mean-filament/",
-    words: "2 pN, junction shared, mean filament",
-    is_mean: true,
-    ..SHARED
-};
-const WEAK_MEAN: Model = Model {
-    name: "0.5-pN/mean-filament/",
-    words: "0.5 pN, junction shared, mean filament",
-    is_weak: true,
-    ..MEAN
-};
-const STIFF: Model = Model {
-    name: "preceding-paper/",
-    words: "2 pN, junction shared, rigidity of the preceding paper",
-    is_stiff: true,
-    ..SHARED
-};
-const STIFF_FULL: Model = Model {
-    name: "preceding-paper/full/",
-    words: "2 pN, junction full, rigidity of the preceding paper",
-    is_stiff: true,
-    ..FULL
-};
-const STIFF_MEAN: Model = Model {
-    name: "preceding-paper/mean-filament/",
-    words: "2 pN, junction shared, rigidity of the preceding paper, mean filament",
-    is_stiff: true,
-    ..MEAN
-};
-/// Junction and balance of the rod as printed. The balance has no potential energy.
-const AS_PRINTED: Model = Model {
-    name: "paper-balance/",
-    words: "2 pN, junction and balance as printed",
-    balance: ForceLaw::PaperBalance,
-    ..FULL
-};
-const MODELS: [Model; 9] = [
-    SHARED, FULL, WEAK, MEAN, WEAK_MEAN, STIFF, STIFF_FULL, STIFF_MEAN, AS_PRINTED,
-];
-
 #[derive(Clone, Copy, Debug)]
 struct Case {
-    model: Model,
+    model: &'static Model,
     resolution: Resolution,
     seed: u64,
     segments: Option<u32>,
@@ -127,7 +68,7 @@ pub(super) fn figure4(draft: &mut Draft<'_>) -> Result<(), String> {
         outcome.map_err(|e| format!("{}: {e}", case.path()))
     });
     let outcomes: Vec<Outcome> = outcomes.into_iter().collect::<Result<_, _>>()?;
-    draft.settings = settings(&outcomes);
+    settings(draft, &outcomes)?;
     rows(draft, &outcomes);
     tables(draft, &outcomes)?;
     pictures::panels(draft, &outcomes)?;
@@ -144,23 +85,24 @@ fn cases(quick: bool) -> Vec<Case> {
         segments,
     };
     let mut all = Vec::new();
-    for model in MODELS.into_iter().filter(|m| !quick || *m != AS_PRINTED) {
+    let models = models("fig4", quick);
+    for &model in &models {
         let mixed = rods.iter().map(|&rod| Resolution::Mixed(rod));
         let resolutions = mixed.chain([Resolution::Rod, Resolution::Ellipsoids]);
-        let own = resolutions.filter(|&r| model.solved_as(&MODELS, r) == model);
+        let own = resolutions.filter(|&r| model.solved_at(r) == model);
         all.extend(own.map(|resolution| case(model, resolution, 0, None)));
     }
-    let refined = REFINED.map(|n| case(SHARED, Resolution::Rod, 0, Some(n)));
-    all.extend(refined);
+    let shared = models[0];
+    all.extend(REFINED.map(|n| case(shared, Resolution::Rod, 0, Some(n))));
     if !quick {
-        all.extend((1..SEEDS).map(|seed| case(SHARED, Resolution::Ellipsoids, seed, None)));
+        all.extend((1..SEEDS).map(|seed| case(shared, Resolution::Ellipsoids, seed, None)));
     }
     all
 }
 
 impl Case {
     fn path(&self) -> String {
-        let folder = match (self.model.name, self.resolution) {
+        let folder = match (&*self.model.name, self.resolution) {
             ("", Resolution::Mixed(_)) => "shared/",
             (name, _) => name,
         };
@@ -182,7 +124,12 @@ impl Case {
 
     /// True for cases whose first flexural mode is compared.
     fn swings(&self) -> bool {
-        self.is_drawn() && [SHARED, MEAN, AS_PRINTED].contains(&self.model)
+        self.is_drawn() && (self.is_compared() || self.model.name == "paper-balance/")
+    }
+
+    /// True for the models whose work is compared.
+    fn is_compared(&self) -> bool {
+        ["", "mean-filament/"].contains(&&*self.model.name)
     }
 
     fn scene(&self) -> Result<Scene, String> {
@@ -207,7 +154,7 @@ impl Case {
         let is_moved = moving && !self.model.is_stiff;
         let mut statics = scene.clone();
         statics.task = Task::Equilibrium(Equilibrium::default());
-        let has_potential = self.model.balance == ForceLaw::EnergyGradient;
+        let has_potential = self.model.has_potential();
         let newton = has_potential
             .then(|| SolvedScene::new(&statics))
             .transpose()?;
@@ -258,11 +205,7 @@ impl Case {
         if !is_moved || !self.swings() {
             return Ok(None);
         }
-        dynamics.drag = DragRates {
-            translational_per_ns: SWING_DRAG_PER_NS,
-            rotational_per_ns: SWING_DRAG_PER_NS,
-        }
-        .into();
+        dynamics.drag = drag([SWING_DRAG_PER_NS; 2]);
         dynamics.duration_ns = SWING_NS;
         dynamics.stop = None;
         let swung = SolvedScene::new(&scene)?;
@@ -284,19 +227,21 @@ fn internal_energy(assembly: &Assembly, record: &Record) -> f64 {
     elastic + record.kinetic_pn_nm
 }
 
-fn settings(outcomes: &[Outcome]) -> String {
+fn settings(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
     let unfinished = outcomes.iter().filter(|o| !o.has_converged).count();
-    let how = if outcomes.iter().any(|o| o.is_moved) {
+    let method = if outcomes.iter().any(|o| o.is_moved) {
         "damped dynamics, and equilibria by Newton's method with the rigidity of the preceding paper"
     } else {
         "equilibria by Newton's method, without the printed balance, which has no potential"
     };
-    format!(
-        "Scenes scenarios/figure-4/*.ron, {} cases, {how}; at the end {}; {unfinished} case(s) ended earlier. Seed 0 \
-         unless named; the mean filament has quadrature bonds and no seed.",
-        outcomes.len(),
-        residuals(outcomes.iter().map(|o| o.residual)),
-    )
+    let residuals = residuals(outcomes.iter().map(|o| o.residual));
+    let values: Values<'_> = &[
+        ("count", &outcomes.len()),
+        ("method", &method),
+        ("residuals", &residuals),
+        ("unfinished", &unfinished),
+    ];
+    draft.describe("fig4", values)
 }
 
 fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
@@ -314,12 +259,12 @@ fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
             draft.row(format!("frequency/{path}"), "rad/ns", frequency, &*note);
             draft.row(format!("decay/{path}"), "1/ns", ring.decay_per_ns, note);
         }
-        if o.is_moved && [SHARED, MEAN].contains(&o.case.model) {
+        if o.is_moved && o.case.is_compared() {
             let note = "evaluations of bonds and segments until the stop rule is met";
             draft.row(format!("work/{path}"), "", o.work, note);
         }
     }
-    for model in MODELS {
+    for model in models("fig4", draft.quick) {
         spreads(draft, outcomes, model);
     }
     checks(draft, outcomes);
@@ -343,16 +288,13 @@ impl Outcome {
 }
 
 /// Relative spread of tip drop and energy over the mixed resolutions.
-fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
+fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: &Model) {
     let of_model = outcomes.iter().filter(|o| o.case.model == model);
     let mixed: Vec<&Outcome> = of_model.filter(|o| o.case.resolution.is_mixed()).collect();
     if mixed.is_empty() {
         return;
     }
-    let name = match model.name.trim_end_matches('/') {
-        "" => "shared",
-        name => name,
-    };
+    let name = model.label("shared");
     let tips = sample(mixed.iter().map(|o| o.tip_drop_nm));
     let energies = sample(mixed.iter().map(|o| o.elastic_pn_nm));
     for (quantity, unit, s) in [
@@ -368,11 +310,12 @@ fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
 }
 
 fn checks(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
+    let shared = |resolution| {
+        let own = outcomes.iter().filter(|o| o.case.model.is_shown());
+        own.filter(move |o| o.case.resolution == resolution)
+    };
     let rod = |segments: Option<u32>| {
-        let rods = outcomes
-            .iter()
-            .filter(|o| o.case.resolution == Resolution::Rod);
-        let mut own = rods.filter(|o| o.case.model == SHARED && o.case.segments == segments);
+        let mut own = shared(Resolution::Rod).filter(|o| o.case.segments == segments);
         own.next().map_or(f64::NAN, |o| o.tip_drop_nm)
     };
     let fine = rod(Some(128));
@@ -391,17 +334,14 @@ fn checks(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     let unstable = newton().filter(|(_, is_stable)| !is_stable).count();
     let note = "equilibria of Newton's method whose stiffness is not positive definite";
     draft.row("not_certified_stable", "", unstable as f64, note);
-    let sampled = outcomes
-        .iter()
-        .filter(|o| o.case.model == SHARED && o.case.resolution == Resolution::Ellipsoids);
-    let drops = sample(sampled.map(|o| o.tip_drop_nm));
+    let drops = sample(shared(Resolution::Ellipsoids).map(|o| o.tip_drop_nm));
     if drops.count > 1 {
         let note = format!(
             "{} seeds of the bonds, 64 independent bonds per interface",
             drops.count
         );
         draft.row("tip_drop/ellipsoids/mean", "nm", drops.mean, &*note);
-        draft.row("tip_drop/ellipsoids/sd", "nm", drops.sd, note);
+        draft.row("tip_drop/ellipsoids/sd", "nm", drops.sd(), note);
     }
     let moved = outcomes.iter().filter(|o| o.is_moved && o.newton.is_some());
     let totals: Vec<Vec<f64>> = moved.map(|o| o.total.clone()).collect();

@@ -3,9 +3,10 @@
 pub(super) use crate::charts::{dots, line};
 
 use super::draft::Draft;
+use super::texts::ChartText;
 use crate::palette;
 use crate::run::Shape;
-use actin_draw::{Chart, Colour, Mark, Series};
+use actin_draw::{Colour, Mark, Series};
 
 /// Invisible dot that extends the axes for the legend.
 pub(super) fn room(at: (f64, f64)) -> Series {
@@ -45,72 +46,59 @@ impl Filament {
     }
 
     pub(super) fn curve(&self, points: Vec<(f64, f64)>) -> Series {
+        let mark = if self.is_dashed {
+            Mark::Dashes
+        } else {
+            Mark::Line
+        };
         Series {
-            mark: mark(self.is_dashed),
+            mark,
             ..line(self.name.clone(), self.colour, points)
         }
     }
 }
 
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Side {
-    /// Suffix of the file name.
-    pub panel: &'static str,
-    pub title: &'static str,
-    pub labels: [&'static str; 2],
-    pub project: fn(&[f64; 3]) -> (f64, f64),
-    pub equal_axes: bool,
-}
+/// Half the size of the cross at an anchor (nm).
+const CROSS_NM: f64 = 0.8;
+const ANCHOR: Colour = Colour([70, 70, 70]);
 
-/// Series of monomers, of centre lines above them, and of `others`.
-pub(super) fn seen_from(side: &Side, filaments: &[Filament], others: Vec<Series>) -> Vec<Series> {
-    let project = |places: &[[f64; 3]]| places.iter().map(side.project).collect();
+/// Draws monomers, centre lines above them, and crosses at `anchors` (nm) in the projection of a chart.
+pub(super) fn project(
+    draft: &mut Draft<'_>,
+    file: String,
+    texts: &ChartText,
+    filaments: &[Filament],
+    anchors: &[[f64; 3]],
+) -> Result<(), String> {
+    let view = texts.view.ok_or("the chart is not a projection")?;
+    let project = |places: &[[f64; 3]]| places.iter().map(|p| view.of(p)).collect();
     let with_monomers = filaments.iter().filter(|f| !f.monomers.is_empty());
     let monomers = with_monomers.map(|f| dots(f.colour, project(&f.monomers)));
     let lines = filaments.iter().map(|f| f.curve(project(&f.line)));
-    monomers.chain(lines).chain(others).collect()
+    let series = monomers.chain(lines).chain(crosses(project(anchors)));
+    draft.plot(file, texts, series.collect())
 }
 
-pub(super) fn draw_from(
-    draft: &mut Draft<'_>,
-    file: &str,
-    (side, title): (&Side, &str),
-    filaments: &[Filament],
-    others: Vec<Series>,
-    caption: String,
-) -> Result<(), String> {
-    let chart = Chart {
-        title,
-        x_label: side.labels[0],
-        y_label: side.labels[1],
-        series: seen_from(side, filaments, others),
-        equal_axes: side.equal_axes,
-    };
-    draft.chart(format!("{file}_{}.svg", side.panel), &chart, caption)
+/// Crosses at places. The first one has the legend.
+fn crosses(places: Vec<(f64, f64)>) -> Vec<Series> {
+    let strokes = places.into_iter().flat_map(|(x, y)| {
+        [(CROSS_NM, CROSS_NM), (CROSS_NM, -CROSS_NM)]
+            .map(|(a, b)| vec![(x - a, y - b), (x + a, y + b)])
+    });
+    let mut series: Vec<Series> = strokes
+        .map(|points| line("anchors", ANCHOR, points))
+        .collect();
+    series.iter_mut().skip(1).for_each(|s| s.label = None);
+    series
 }
 
-#[derive(Clone, Debug)]
-pub(super) struct Curve {
-    pub name: String,
-    pub colour: Colour,
-    pub is_dashed: bool,
-    /// Length of rod (nm) and value, in any order.
-    pub points: Vec<(f64, f64)>,
-}
-
-fn mark(is_dashed: bool) -> Mark {
-    if is_dashed { Mark::Dashes } else { Mark::Line }
-}
-
-pub(super) fn against_rod(curves: Vec<Curve>) -> Vec<Series> {
+/// Curves of models against the length of rod, with points in any order, and dots at the points.
+pub(super) fn against_rod(curves: impl IntoIterator<Item = Series>) -> Vec<Series> {
     let curves = curves.into_iter().filter(|curve| !curve.points.is_empty());
     let series = curves.flat_map(|mut curve| {
         curve.points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let line = Series {
-            mark: mark(curve.is_dashed),
-            ..line(curve.name, curve.colour, curve.points.clone())
-        };
-        [line, dots(curve.colour, curve.points)]
+        let dots = dots(curve.colour, curve.points.clone());
+        [curve, dots]
     });
     series.collect()
 }

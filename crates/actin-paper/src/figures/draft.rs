@@ -2,7 +2,8 @@
 
 use super::expected::{self, Bound, MeasuredRow};
 use super::progress::Progress;
-use crate::statistics::{Sample, largest};
+use super::texts::{self, ChartText, Values};
+use crate::statistics::largest;
 use actin_draw::report::{Artefact, Picture, Row, View, write_csv};
 use actin_draw::{Chart, Series};
 use actin_view::{Attitude, Pose, ViewState, states};
@@ -73,16 +74,7 @@ impl<'a> Draft<'a> {
         self.scattered(quantity, unit, (ours, 0.0), note);
     }
 
-    pub(super) fn mean(
-        &mut self,
-        quantity: impl Into<String>,
-        unit: &'static str,
-        sample: &Sample,
-        note: impl Into<String>,
-    ) {
-        self.scattered(quantity, unit, (sample.mean, sample.sd), note);
-    }
-
+    /// Adds a row with the standard deviation of a single sample.
     pub(super) fn scattered(
         &mut self,
         quantity: impl Into<String>,
@@ -116,46 +108,39 @@ impl<'a> Draft<'a> {
         Some(found.row.ours)
     }
 
-    pub(super) fn chart(
-        &mut self,
-        file: String,
-        chart: &Chart<'_>,
-        caption: impl Into<String>,
-    ) -> Result<(), String> {
-        chart.draw(&self.out.join(&file))?;
-        self.pictures.push(Picture {
-            file,
-            caption: caption.into(),
-        });
+    /// Sets the description of scenes, stop rule and seeds.
+    pub(super) fn describe(&mut self, name: &str, values: Values<'_>) -> Result<(), String> {
+        self.settings = texts::settings(name, values)?;
         Ok(())
     }
 
-    /// Draws series on axes with independent scales.
+    /// Draws series with the texts of a chart.
     pub(super) fn plot(
         &mut self,
         file: impl Into<String>,
-        title: &str,
-        [x_label, y_label]: [&str; 2],
+        texts: &ChartText,
         series: Vec<Series>,
-        caption: impl Into<String>,
     ) -> Result<(), String> {
         let chart = Chart {
-            title,
-            x_label,
-            y_label,
+            title: &texts.title,
+            x_label: &texts.x,
+            y_label: &texts.y,
             series,
-            equal_axes: false,
+            equal_axes: texts.view.is_some_and(|view| !view.stretches),
         };
-        self.chart(file.into(), &chart, caption)
+        let file = file.into();
+        chart.draw(&self.out.join(&file))?;
+        let caption = texts.caption.clone();
+        self.pictures.push(Picture { file, caption });
+        Ok(())
     }
 
     /// Writes states for the viewer. Each has a group, a name, a share of rod and a pose.
     pub(super) fn view(
         &mut self,
         id: &str,
-        attitude: Attitude,
+        text: &str,
         shown: impl IntoIterator<Item = (String, String, f64, Pose)>,
-        caption: &str,
     ) -> Result<(), String> {
         let shown = shown
             .into_iter()
@@ -166,7 +151,11 @@ impl<'a> Draft<'a> {
                 pose,
             });
         let shown: Vec<ViewState> = shown.collect();
-        let view = states::write(id, attitude, &shown, caption.into(), self.out)?;
+        let attitude = match id {
+            "fig1" => Attitude::VERTICAL,
+            _ => Attitude::HORIZONTAL,
+        };
+        let view = states::write(id, attitude, &shown, texts::view(text)?, self.out)?;
         self.views.push(view);
         Ok(())
     }
@@ -202,16 +191,16 @@ impl<'a> Draft<'a> {
         write_csv(self.out, file, header, lines)
     }
 
-    pub(super) fn finish(self, title: &'static str, wall_s: f64) -> Artefact {
-        Artefact {
+    pub(super) fn finish(self, wall_s: f64) -> Result<Artefact, String> {
+        Ok(Artefact {
             id: self.id,
-            title,
+            title: texts::title(self.id)?,
             settings: self.settings,
             rows: expected::judged(self.id, self.rows),
             pictures: self.pictures,
             views: self.views,
             wall_s,
-        }
+        })
     }
 }
 

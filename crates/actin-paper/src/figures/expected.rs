@@ -42,7 +42,7 @@ struct Claim {
     /// Names of rows, separated by spaces. `*` matches a number and selects rows in ascending order of it.
     rows: String,
     reference: Option<f64>,
-    holds: BoundKind,
+    holds: Holds,
     bound: Option<f64>,
     statement: String,
 }
@@ -64,21 +64,18 @@ enum Measure {
     Relative,
 }
 
+/// Meaning of the tolerance of a claim.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum BoundKind {
+pub(super) enum Holds {
     AtMost,
     AtLeast,
     /// Shown without a verdict.
     Unjudged,
 }
 
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Bound {
-    AtMost(f64),
-    AtLeast(f64),
-    None,
-}
+/// Largest or smallest value of a claim; `None` without a verdict.
+pub(super) type Bound = Option<(Holds, f64)>;
 
 static EXPECTED: LazyLock<Vec<Expected>> =
     LazyLock::new(|| table(include_str!("../../data/expected.csv")));
@@ -95,12 +92,6 @@ pub(super) fn judged(artefact: &'static str, measured: Vec<MeasuredRow>) -> Vec<
 }
 
 impl MeasuredRow {
-    /// Shows a number of the paper next to the row, without a verdict.
-    pub(super) fn beside(row: Row, expected: f64) -> Self {
-        let row = row.with_reference(expected, Origin::Paper);
-        Self { row, sd: 0.0 }
-    }
-
     fn judged(self) -> Row {
         let Self { row, sd } = self;
         let of_row = |e: &&Expected| e.artefact == row.artefact && e.quantity == row.quantity;
@@ -144,19 +135,9 @@ impl Claim {
             values.extend(chosen);
         }
         let ours = self.measure.of(&values, self.reference)?;
-        let bound = match (self.holds, self.bound) {
-            (BoundKind::AtMost, Some(bound)) => Bound::AtMost(bound),
-            (BoundKind::AtLeast, Some(bound)) => Bound::AtLeast(bound),
-            _ => Bound::None,
-        };
-        Some(claim(
-            artefact,
-            &self.quantity,
-            &self.unit,
-            ours,
-            bound,
-            &*self.statement,
-        ))
+        let bound = self.bound.map(|bound| (self.holds, bound));
+        let (quantity, unit, statement) = (&self.quantity, &self.unit, &*self.statement);
+        Some(claim(artefact, quantity, unit, ours, bound, statement))
     }
 }
 
@@ -168,22 +149,14 @@ pub(super) fn claim(
     bound: Bound,
     statement: impl Into<String>,
 ) -> Row {
-    let (limit, pass, words) = match bound {
-        Bound::AtMost(limit) => (
-            Some(limit),
-            Some(ours <= limit),
-            "the tolerance is an upper bound",
-        ),
-        Bound::AtLeast(limit) => (
-            Some(limit),
-            Some(ours >= limit),
-            "the tolerance is a lower bound",
-        ),
-        Bound::None => (None, None, "not judged"),
+    let (pass, words) = match bound {
+        Some((Holds::AtMost, limit)) => (Some(ours <= limit), "the tolerance is an upper bound"),
+        Some((Holds::AtLeast, limit)) => (Some(ours >= limit), "the tolerance is a lower bound"),
+        Some((Holds::Unjudged, _)) | None => (None, "not judged"),
     };
     let note = format!("the paper: {}; {words}", statement.into());
     Row {
-        tolerance: limit,
+        tolerance: pass.and(bound).map(|(_, limit)| limit),
         pass,
         origin: pass.map(|_| Origin::Words),
         ..Row::measured(artefact, format!("claim/{quantity}"), unit, ours, note)

@@ -26,10 +26,7 @@ pub(super) fn law(draft: &mut Draft<'_>) -> Result<(), String> {
     };
     let compared = load_cases::compared(LAW, draft.quick, draft.out, &done)?;
     draft.table("law.csv", &compared, &COLUMNS)?;
-    draft.settings = format!(
-        "law {LAW}, segments of 10 nm, compared with the mean filament and, in notes, with filaments of 64 sampled \
-         bonds; equilibria at the end of the same path; bounds as in docs/tables/load-cases.md"
-    );
+    draft.describe("law", &[("law", &LAW)])?;
     for (case, quantity, row) in compared {
         let quantity = format!("{}/{}", slug(&case), slug(&quantity));
         draft.compared(Row { quantity, ..row });

@@ -5,13 +5,14 @@
 
 use super::charts::{line, room};
 use super::draft::{Column, Draft, number, residuals};
+use super::texts::ChartText;
 use crate::palette;
 use crate::run::{SolvedScene, scenario};
 use crate::statistics::{largest, sample};
 use actin_draw::{Colour, Mark, Series};
 use actin_sim::shape::{Ribbon, profile};
 use actin_sim::{Assembly, FreeTranslation, Hold, Monomers, Part, RodLaw, Scene};
-use actin_view::{Attitude, Pose};
+use actin_view::Pose;
 
 /// Samplings of the bonds, by default and with `--quick`. Each is pulled in both directions.
 const SEEDS: u64 = 16;
@@ -19,45 +20,30 @@ const QUICK_SEEDS: u64 = 4;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum FilamentResolution {
-    /// 19 segments with a law and a type of clamp.
-    Rod(Rod, Hold),
+    /// 19 segments with constant rigidities and a type of clamp.
+    Rod(Hold),
+    /// Rod with the energy of the supplement, which couples stretch and twist.
+    CoupledRod(Hold),
     /// 67 monomers with this number of sampled bonds per interface.
     Ellipsoids(usize),
     /// Mean filament: 67 monomers with quadrature bonds.
     Mean,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Rod {
-    Constant,
-    /// Energy of the supplement, which couples stretch and twist.
-    Coupled,
-}
+use FilamentResolution::{CoupledRod, Ellipsoids, Mean, Rod};
 
 /// Name in quantities and number of ends that slide along the axis. The linker constrains the middle along the axis:
 /// with one sliding end, the other half stays in tension.
 const SLIDING: [(&str, usize); 3] = [("", 0), ("far-end-slides/", 1), ("both-ends-slide/", 2)];
 
 const KINDS: [(&str, FilamentResolution); 7] = [
-    (
-        "rod",
-        FilamentResolution::Rod(Rod::Constant, Hold::TwoNodesAndFrame),
-    ),
-    (
-        "wall/rod",
-        FilamentResolution::Rod(Rod::Constant, Hold::Wall),
-    ),
-    (
-        "coupling-energy/rod",
-        FilamentResolution::Rod(Rod::Coupled, Hold::TwoNodesAndFrame),
-    ),
-    (
-        "coupling-energy/wall/rod",
-        FilamentResolution::Rod(Rod::Coupled, Hold::Wall),
-    ),
-    ("ellipsoid", FilamentResolution::Ellipsoids(64)),
-    ("bonds-32/ellipsoid", FilamentResolution::Ellipsoids(32)),
-    ("mean-filament/ellipsoid", FilamentResolution::Mean),
+    ("rod", Rod(Hold::TwoNodesAndFrame)),
+    ("wall/rod", Rod(Hold::Wall)),
+    ("coupling-energy/rod", CoupledRod(Hold::TwoNodesAndFrame)),
+    ("coupling-energy/wall/rod", CoupledRod(Hold::Wall)),
+    ("ellipsoid", Ellipsoids(64)),
+    ("bonds-32/ellipsoid", Ellipsoids(32)),
+    ("mean-filament/ellipsoid", Mean),
 ];
 
 #[derive(Clone, Debug)]
@@ -100,12 +86,11 @@ pub(super) fn figure7(draft: &mut Draft<'_>) -> Result<(), String> {
         case.solve().map_err(|e| format!("{}: {e}", case.kind))
     });
     let results: Vec<Halves> = results.into_iter().collect::<Result<_, _>>()?;
-    draft.settings = format!(
-        "Scenes scenarios/figure-7/*.ron, {} equilibria; seeds of the bonds from 0 (none for the mean \
-         filament), each pulled in both directions; {}.",
-        results.len(),
-        residuals(results.iter().map(|h| h.residual))
-    );
+    let residuals = residuals(results.iter().map(|h| h.residual));
+    draft.describe(
+        "fig7",
+        &[("count", &results.len()), ("residuals", &residuals)],
+    )?;
     rows(draft, &results);
     tables(draft, &results)?;
     picture(draft, &results)?;
@@ -117,13 +102,10 @@ fn cases(seeds: u64) -> Vec<Case> {
     let mut all = Vec::new();
     for (slides, sliding) in SLIDING {
         for (kind, resolved) in KINDS {
-            let seeds = match resolved {
-                FilamentResolution::Ellipsoids(_) => seeds,
-                _ => 1,
-            };
-            let directions: &[bool] = match resolved {
-                FilamentResolution::Rod(..) => &[false],
-                _ => &[false, true],
+            let (seeds, directions): (u64, &[bool]) = match resolved {
+                Rod(_) | CoupledRod(_) => (1, &[false]),
+                Ellipsoids(_) => (seeds, &[false, true]),
+                Mean => (1, &[false, true]),
             };
             for seed in 0..seeds {
                 all.extend(directions.iter().map(|&is_reversed| Case {
@@ -142,22 +124,21 @@ fn cases(seeds: u64) -> Vec<Case> {
 impl Case {
     fn scene(&self) -> Result<Scene, String> {
         let mut scene = scenario(match self.resolved {
-            FilamentResolution::Rod(..) => "figure-7/rod.ron",
+            Rod(_) | CoupledRod(_) => "figure-7/rod.ron",
             _ => "figure-7/ellipsoids.ron",
         })?;
+        if let Rod(hold) | CoupledRod(hold) = self.resolved {
+            scene.clamps.iter_mut().for_each(|clamp| clamp.hold = hold);
+        }
+        let filament = &mut scene.filament;
         match self.resolved {
-            FilamentResolution::Rod(law, hold) => {
-                scene.clamps.iter_mut().for_each(|clamp| clamp.hold = hold);
-                if law == Rod::Coupled {
-                    scene.filament.rod.law = RodLaw::CouplingEnergy;
-                }
-            }
-            FilamentResolution::Mean => scene.filament.monomers = Monomers::default(),
-            FilamentResolution::Ellipsoids(bonds) => {
-                let monomers = &mut scene.filament.monomers;
-                monomers.seed = self.seed;
-                monomers.lateral_bonds = bonds;
-                monomers.longitudinal_bonds = bonds;
+            Rod(_) => {}
+            CoupledRod(_) => filament.rod.law = RodLaw::CouplingEnergy,
+            Mean => filament.monomers = Monomers::default(),
+            Ellipsoids(bonds) => {
+                filament.monomers.seed = self.seed;
+                filament.monomers.lateral_bonds = bonds;
+                filament.monomers.longitudinal_bonds = bonds;
             }
         }
         for clamp in scene.clamps.iter_mut().rev().take(self.sliding) {
@@ -260,21 +241,26 @@ fn rows(draft: &mut Draft<'_>, results: &[Halves]) {
         let case = &halves[0].case;
         for (name, unit, of) in QUANTITIES {
             let s = sample(halves.iter().map(of));
-            let note = match (s.count, case.resolved) {
-                (1, _) => "one equilibrium".into(),
-                (n, resolved) => format!(
-                    "mean over {n} ({}both directions), sd {:.4}, standard error {:.4}, range {:.4} to {:.4}",
-                    match resolved {
-                        FilamentResolution::Ellipsoids(_) => "samplings, ",
-                        _ => "",
-                    },
-                    s.sd,
-                    s.sd / (n as f64).sqrt(),
+            let samplings = match case.resolved {
+                Ellipsoids(_) => "samplings, ",
+                _ => "",
+            };
+            let note = match s.count {
+                1 => "one equilibrium".into(),
+                n => format!(
+                    "mean over {n} ({samplings}both directions), sd {:.4}, standard error {:.4}, range {:.4} to {:.4}",
+                    s.sd(),
+                    s.sd() / (n as f64).sqrt(),
                     s.low,
                     s.high
                 ),
             };
-            draft.mean(format!("{name}/{}", case.kind), unit, &s, note);
+            draft.scattered(
+                format!("{name}/{}", case.kind),
+                unit,
+                (s.mean, s.sd()),
+                note,
+            );
         }
     }
     let doubtful = results.iter().filter(|r| r.doubtful > 0).count();
@@ -341,18 +327,10 @@ fn picture(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
         mark: Mark::Dashes,
         ..curve("mean filament", palette::DATA, "mean-filament/ellipsoid")
     });
-    let caption = "Elastic energy per length; ellipsoids: mean over all samplings and both directions of the \
-        pull. Dashed: the mean filament (quadrature bonds). C3 energy: coupling of stretch and twist in the \
-        supplement of the paper.";
     draft.plot(
         "fig7_energy.svg",
-        "Energy along the filament, with the over-twisted half on the right",
-        [
-            "arc length from the middle (nm)",
-            "elastic energy per length (pN)",
-        ],
+        &ChartText::new("fig7_energy", &[])?,
         series,
-        caption,
     )
 }
 
@@ -366,17 +344,11 @@ fn mean_profile(halves: &[&Halves]) -> Vec<(f64, f64)> {
 }
 
 fn view(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
-    let shown = [("rod", 1.0), ("ellipsoid", 0.0)]
-        .into_iter()
-        .filter_map(|(kind, share)| {
-            let first = results.iter().find(|h| h.case.kind == kind)?;
-            Some((
-                "both ends clamped".into(),
-                kind.into(),
-                share,
-                first.pose.clone(),
-            ))
-        });
-    let caption = "Equilibria with the linker that turns the middle.";
-    draft.view("fig7", Attitude::HORIZONTAL, shown, caption)
+    let shown = [("rod", 1.0), ("ellipsoid", 0.0)];
+    let shown = shown.into_iter().filter_map(|(kind, share)| {
+        let first = results.iter().find(|h| h.case.kind == kind)?;
+        let group = "both ends clamped".to_owned();
+        Some((group, kind.into(), share, first.pose.clone()))
+    });
+    draft.view("fig7", "fig7", shown)
 }

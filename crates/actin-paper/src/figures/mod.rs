@@ -21,6 +21,7 @@ mod progress;
 mod schematics;
 mod surface;
 mod tables;
+mod texts;
 mod twist_fits;
 
 pub use crate::palette::Palette;
@@ -28,7 +29,7 @@ pub(crate) use page::unexplained;
 
 use crate::ProgressSink;
 use actin_draw::report::{self, Artefact, Row};
-use cache::{Cache, CachedArtefact, Reason};
+use cache::{Cache, CachedArtefact};
 use draft::Draft;
 use progress::Progress;
 use std::fs;
@@ -60,98 +61,26 @@ impl Options {
     }
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Experiment {
-    id: &'static str,
-    title: &'static str,
-    run: fn(&mut Draft<'_>) -> Result<(), String>,
-}
-
-const fn experiment(
-    id: &'static str,
-    title: &'static str,
-    run: fn(&mut Draft<'_>) -> Result<(), String>,
-) -> Experiment {
-    Experiment { id, title, run }
-}
+/// Id of an artefact and its computation.
+type Experiment = (&'static str, fn(&mut Draft<'_>) -> Result<(), String>);
 
 const EXPERIMENTS: [Experiment; 16] = [
-    experiment(
-        "fig1",
-        "The two models and their combination",
-        schematics::figure1,
-    ),
-    experiment(
-        "fig2",
-        "The junction of monomers and rod",
-        schematics::figure2,
-    ),
-    experiment("fig3", "Three kinds of scenes", schematics::figure3),
-    experiment(
-        "fig4",
-        "Cantilever of 160 nm under a tip force, resolved in seven ways",
-        cantilever::figure4,
-    ),
-    experiment(
-        "fig5",
-        "Free filament of 160 nm on three linkers in one plane",
-        linkers::figure5,
-    ),
-    experiment(
-        "fig6",
-        "Free filament of 210 nm on four linkers on all sides",
-        linkers::figure6,
-    ),
-    experiment(
-        "fig7",
-        "Filament turned in the middle: energy of both halves",
-        middle::figure7,
-    ),
-    experiment(
-        "fig8",
-        "Twisted and compressed filaments: constant rigidities",
-        buckling::figure8,
-    ),
-    experiment(
-        "fig9",
-        "Twisting rigidity and change of length against twist, fitted",
-        twist_fits::figure9,
-    ),
-    experiment(
-        "fig10",
-        "Twisted and compressed filaments: twist-dependent rods",
-        buckling::figure10,
-    ),
-    experiment(
-        "table1",
-        "Parameters of the ellipsoid model",
-        tables::table1,
-    ),
-    experiment(
-        "table2",
-        "Parameters of the preceding paper's Cosserat rod",
-        tables::table2,
-    ),
-    experiment(
-        "table3",
-        "Secant twisting rigidity of the ellipsoid filament",
-        tables::table3,
-    ),
-    experiment(
-        "table4",
-        "Rigidities of the multi-resolution model, measured on the monomers",
-        tables::table4,
-    ),
-    experiment(
-        "table5",
-        "Change of length of the twisted ellipsoid filament",
-        tables::table5,
-    ),
-    experiment(
-        "law",
-        "The rod law in load cases that were not used for fitting",
-        law::law,
-    ),
+    ("fig1", schematics::figure1),
+    ("fig2", schematics::figure2),
+    ("fig3", schematics::figure3),
+    ("fig4", cantilever::figure4),
+    ("fig5", linkers::figure5),
+    ("fig6", linkers::figure6),
+    ("fig7", middle::figure7),
+    ("fig8", buckling::figure8),
+    ("fig9", twist_fits::figure9),
+    ("fig10", buckling::figure10),
+    ("table1", tables::table1),
+    ("table2", tables::table2),
+    ("table3", tables::table3),
+    ("table4", tables::table4),
+    ("table5", tables::table5),
+    ("law", law::law),
 ];
 
 /// Computes the chosen artefacts or reads them from the cache, and writes pictures, tables, `report.json` and
@@ -160,7 +89,7 @@ const EXPERIMENTS: [Experiment; 16] = [
 /// # Errors
 /// An artefact is unknown, a scene cannot be solved, or a file cannot be written.
 pub fn reproduce(options: &Options, tell: ProgressSink<'_>) -> Result<Vec<Row>, String> {
-    let known: Vec<&str> = EXPERIMENTS.iter().map(|e| e.id).collect();
+    let known: Vec<&str> = EXPERIMENTS.iter().map(|e| e.0).collect();
     let is_known = |id: &&String| known.contains(&id.as_str());
     if let Some(unknown) = options.ids.iter().find(|id| !is_known(id)) {
         return Err(format!(
@@ -200,7 +129,7 @@ fn artefacts(
     fs::create_dir_all(&options.out).map_err(|e| format!("{}: {e}", options.out.display()))?;
     let cache = Cache::new(&options.out, cache::fingerprint(&options.choices())?)?;
     let is_chosen =
-        |e: &&Experiment| options.ids.is_empty() || options.ids.iter().any(|wanted| wanted == e.id);
+        |e: &&Experiment| options.ids.is_empty() || options.ids.iter().any(|wanted| wanted == e.0);
     let chosen = experiments.iter().filter(is_chosen);
     chosen
         .map(|experiment| Ok(artefact(experiment, &cache, options, tell)?.0.artefact))
@@ -209,13 +138,13 @@ fn artefacts(
 
 /// Computes or reads one artefact. The reason is `None` if it was read from the cache.
 fn artefact(
-    &Experiment { id, title, run }: &Experiment,
+    &(id, run): &Experiment,
     cache: &Cache<'_>,
     options: &Options,
     tell: ProgressSink<'_>,
-) -> Result<(CachedArtefact, Option<Reason>), String> {
+) -> Result<(CachedArtefact, Option<String>), String> {
     let found = if options.fresh {
-        Err(Reason::Requested)
+        Err("recomputation requested".to_owned())
     } else {
         cache.find(id)
     };
@@ -235,7 +164,7 @@ fn artefact(
         let started = Instant::now();
         let mut draft = Draft::new(id, out, options.quick, &progress);
         run(&mut draft)?;
-        let artefact = draft.finish(title, started.elapsed().as_secs_f64());
+        let artefact = draft.finish(started.elapsed().as_secs_f64())?;
         Ok((artefact, progress.finish()))
     })?;
     tell(format_args!("{id}: finished, {}", effort(&computed)));

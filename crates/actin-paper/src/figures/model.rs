@@ -1,9 +1,14 @@
 //! Families of filaments: resolutions and models.
 
+use crate::charts::line;
+use crate::palette;
+use crate::published::table;
+use actin_draw::Series;
 use actin_sim::{
-    ForceLaw, Hold, JunctionWeight, Load, Material, Monomers, RodLaw, RodLaws, Scene, Section,
-    fitted_laws,
+    ForceLaw, Hold, JunctionWeight, Load, Material, Monomers, RodLaw, RodLaws, Scene, fitted_laws,
 };
+use serde::Deserialize;
+use std::sync::LazyLock;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Resolution {
@@ -36,16 +41,8 @@ impl Resolution {
     }
 }
 
-pub(super) fn monomers(from_nm: f64, to_nm: f64) -> Section {
-    Section::Ellipsoids {
-        from_nm,
-        to_nm,
-        altered: None,
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Rods {
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+enum Rods {
     Constant,
     Fitted,
     /// `Fitted` with constant shearing rigidity.
@@ -71,82 +68,93 @@ impl Rods {
     }
 }
 
-/// Properties and loads of filaments, independent of the resolution.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Properties and loads of filaments, independent of the resolution: a line of `data/models.csv`.
+#[derive(Debug, Deserialize, PartialEq)]
 pub(super) struct Model {
-    /// Name in quantities; empty for the model of the figure.
-    pub name: &'static str,
-    /// Name in legends.
-    pub words: &'static str,
-    /// Uses quadrature bonds instead of sampled bonds.
+    pub figure: String,
+    pub name: String,
+    pub words: String,
+    colour: String,
     pub is_mean: bool,
-    /// Weight of each bond of a junction.
-    pub junction: JunctionWeight,
-    pub rods: Rods,
+    junction: JunctionWeight,
+    rods: Rods,
     pub balance: ForceLaw,
-    /// Length of rod segments (nm).
     pub segment_nm: f64,
-    /// Type of the clamps of rods.
     pub hold: Hold,
-    /// Divides end forces by four.
-    pub is_weak: bool,
-    /// Gives monomers and rod the bending rigidity of the preceding paper.
+    is_weak: bool,
     pub is_stiff: bool,
 }
 
-impl Model {
-    /// Sampled bonds, constant rigidities, segments of 10 nm, junction bonds of weight one half.
-    pub(super) const STANDARD: Self = Self {
-        name: "",
-        words: "sampled bonds",
-        is_mean: false,
-        junction: JunctionWeight::Shared,
-        rods: Rods::Constant,
-        balance: ForceLaw::EnergyGradient,
-        segment_nm: 10.0,
-        hold: Hold::Wall,
-        is_weak: false,
-        is_stiff: false,
-    };
+static MODELS: LazyLock<Vec<Model>> =
+    LazyLock::new(|| table(include_str!("../../data/models.csv")));
 
-    /// Resets properties without effect at a resolution to their standard values.
-    fn relevant_to(self, resolution: Resolution) -> Self {
-        let standard = Self {
-            hold: self.hold,
-            is_weak: self.is_weak,
-            is_stiff: self.is_stiff,
-            ..Self::STANDARD
-        };
-        match resolution {
-            Resolution::Mixed(_) => self,
-            Resolution::Rod => Self {
-                rods: self.rods,
-                balance: self.balance,
-                segment_nm: self.segment_nm,
-                ..standard
-            },
-            Resolution::Ellipsoids => Self {
-                is_mean: self.is_mean,
-                ..standard
-            },
+/// Models of a figure; with `quick` only those with a potential.
+pub(super) fn models(figure: &str, quick: bool) -> Vec<&'static Model> {
+    let own = MODELS.iter().filter(|model| model.figure == figure);
+    own.filter(|model| !quick || model.has_potential())
+        .collect()
+}
+
+impl Model {
+    /// True for the model in the pictures of its figure.
+    pub(super) fn is_shown(&self) -> bool {
+        self.name.is_empty()
+    }
+
+    pub(super) fn has_potential(&self) -> bool {
+        self.balance == ForceLaw::EnergyGradient
+    }
+
+    /// Name without slashes, or `shown` for the model in the pictures.
+    pub(super) fn label(&self, shown: &str) -> String {
+        match self.name.trim_matches('/') {
+            "" => shown.into(),
+            name => name.into(),
         }
     }
 
-    /// First of `models` with an identical filament at a resolution. It is solved once for all of them.
-    pub(super) fn solved_as(self, models: &[Self], resolution: Resolution) -> Self {
-        let own = self.relevant_to(resolution);
-        let mut all = models.iter().copied();
-        let first = all.find(|model| model.relevant_to(resolution) == own);
+    /// Curve of the model in a chart.
+    pub(super) fn curve(&self, points: Vec<(f64, f64)>) -> Series {
+        let colour = match self.colour.as_str() {
+            "data" => palette::DATA,
+            "grey" => palette::GREY,
+            "light-grey" => palette::LIGHT_GREY,
+            number => palette::line(number.parse().unwrap_or_default()),
+        };
+        line(self.words.clone(), colour, points)
+    }
+
+    /// True if the filament of a resolution is identical under another model of the figure.
+    fn equals_at(&self, resolution: Resolution, other: &Self) -> bool {
+        let ends = |m: &Self| (m.hold, m.is_weak, m.is_stiff);
+        let rods = |m: &Self| (m.rods, m.balance, m.segment_nm);
+        let (has_rod, has_monomers) = match resolution {
+            Resolution::Rod => (true, false),
+            Resolution::Mixed(_) => (true, true),
+            Resolution::Ellipsoids => (false, true),
+        };
+        let has_junction = has_rod && has_monomers;
+        self.figure == other.figure
+            && ends(self) == ends(other)
+            && (!has_rod || rods(self) == rods(other))
+            && (!has_monomers || self.is_mean == other.is_mean)
+            && (!has_junction || self.junction == other.junction)
+    }
+
+    /// First model of the figure with an identical filament at a resolution. It is solved once for all of them.
+    pub(super) fn solved_at(&'static self, resolution: Resolution) -> &'static Self {
+        let mut all = MODELS.iter();
+        let first = all.find(|model| model.equals_at(resolution, self));
         first.unwrap_or(self)
     }
 
     /// Number of samplings of the bonds, at most `most`.
-    pub(super) fn seeds(self, most: u64) -> u64 {
+    pub(super) fn seeds(&self, most: u64) -> u64 {
         if self.is_mean { 1 } else { most }
     }
 
     /// Applies the model to a scene with sampled bonds.
-    pub(super) fn apply(self, scene: &mut Scene, seed: u64) {
+    pub(super) fn apply(&self, scene: &mut Scene, seed: u64) {
         let filament = &mut scene.filament;
         if self.is_mean {
             filament.monomers = Monomers::default();
@@ -171,7 +179,7 @@ impl Model {
     }
 }
 
-pub(super) fn stiffness_ratio() -> f64 {
+fn stiffness_ratio() -> f64 {
     let bend = |material: Material| material.rigidities().bend.x;
     bend(Material::PrecedingPaper) / bend(Material::Table4)
 }
@@ -189,22 +197,14 @@ mod tests {
     /// Junctions affect mixed filaments only, bonds do not affect rods, and rod laws do not affect monomers.
     #[test]
     fn identical_filaments_are_solved_once() {
-        let full = Model {
-            name: "full/",
-            junction: JunctionWeight::Full,
-            ..Model::STANDARD
-        };
-        let mean = Model {
-            name: "mean/",
-            is_mean: true,
-            ..Model::STANDARD
-        };
-        let all = [Model::STANDARD, full, mean];
-        let name = |model: Model, resolution| model.solved_as(&all, resolution).name;
+        let all = models("fig4", false);
+        let named = |name: &str| all.iter().find(|model| model.name == name).copied();
+        let [full, mean] = ["full/", "mean-filament/"].map(|name| named(name).unwrap());
+        let name = |model: &'static Model, resolution| model.solved_at(resolution).name.as_str();
         assert_eq!(name(full, Resolution::Mixed(40)), "full/");
         assert_eq!(name(full, Resolution::Rod), "");
         assert_eq!(name(full, Resolution::Ellipsoids), "");
         assert_eq!(name(mean, Resolution::Rod), "");
-        assert_eq!(name(mean, Resolution::Ellipsoids), "mean/");
+        assert_eq!(name(mean, Resolution::Ellipsoids), "mean-filament/");
     }
 }

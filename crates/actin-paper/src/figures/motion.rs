@@ -1,7 +1,6 @@
 //! Frequency, decay rate and energies of damped motions.
 
 use super::draft::Draft;
-use super::expected::Bound;
 use crate::statistics::largest;
 
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +64,7 @@ pub(super) fn energy_decays(draft: &mut Draft<'_>, motions: &[Vec<f64>]) {
         motions.len()
     );
     let ours = largest(motions.iter().map(|motion| largest_rise(motion)));
-    draft.claim("energy_decays", ours, Bound::None, statement);
+    draft.claim("energy_decays", ours, None, statement);
 }
 
 /// Largest rise between neighbours, divided by the difference between first and last value.

@@ -94,7 +94,7 @@ fn assert_current(out: &Path) {
 
 #[test]
 fn committed_numbers_are_reproduced() {
-    let ids = EXPERIMENTS.map(|e| e.id);
+    let ids = EXPERIMENTS.map(|e| e.0);
     let rest: Vec<&str> = ids.into_iter().filter(|id| !CHEAP.contains(id)).collect();
     let folder = run(&rest, 2);
     assert_current(folder.path());

@@ -2,51 +2,34 @@
 
 use super::charts::{dots, line};
 use super::draft::Draft;
+use super::texts::{ChartText, Values};
 use crate::cells::{mean, strain, twisted};
 use actin_cosserat::Homogenised;
 use actin_draw::Ramp;
 use actin_sim::ellipsoid::{Cell, SixVector};
+use actin_sim::read_ron;
 use rayon::prelude::*;
+use serde::Deserialize;
 
 /// Curvature (rad/nm), twist (rad/nm), shear, extension.
 type Point = [f64; 4];
 
 /// Section of the energy surface: energy against one strain, with a curve for each value of another.
+#[derive(Debug, Deserialize)]
 struct Cut {
-    file: &'static str,
-    title: &'static str,
-    over: (usize, &'static str),
+    file: String,
+    title: String,
+    /// Index in [`Point`] and name of the strain on the axis.
+    over: (usize, String),
     range: [f64; 2],
-    by: (usize, &'static str),
+    by: (usize, String),
     values: [f64; 4],
 }
 
-const CUTS: [Cut; 3] = [
-    Cut {
-        file: "surface-twist.svg",
-        title: "Energy of the twisted and bent filament",
-        over: (1, "twist (rad/nm)"),
-        range: [-0.03, 0.03],
-        by: (0, "curvature (rad/nm)"),
-        values: [0.0, 2.5e-3, 5e-3, 1e-2],
-    },
-    Cut {
-        file: "surface-stretch.svg",
-        title: "Energy of the twisted and stretched filament",
-        over: (3, "stretch relative to the free filament"),
-        range: [-2e-3, 4e-3],
-        by: (1, "twist (rad/nm)"),
-        values: [-0.02, 0.0, 0.01, 0.02],
-    },
-    Cut {
-        file: "surface-shear.svg",
-        title: "Energy of the stretched and sheared filament, without twist",
-        over: (2, "shear strain"),
-        range: [0.0, 0.015],
-        by: (3, "stretch relative to the free filament"),
-        values: [0.0, 5e-4, 1.5e-3, 3e-3],
-    },
-];
+#[derive(Debug, Deserialize)]
+struct Surface {
+    cuts: Vec<Cut>,
+}
 
 /// Intervals of a line, and of the computed cells.
 const POINTS: u32 = 60;
@@ -55,7 +38,10 @@ const CELLS: u32 = 12;
 pub(super) fn draw(draft: &mut Draft<'_>) -> Result<(), String> {
     let cell = mean()?;
     let law = Homogenised::mean_filament();
-    CUTS.iter().try_for_each(|cut| cut.draw(&cell, law, draft))
+    let surface: Surface = read_ron(include_str!("../../data/surface.ron"), "Surface")
+        .map_err(|e| format!("data/surface.ron: {e}"))?;
+    let mut cuts = surface.cuts.iter();
+    cuts.try_for_each(|cut| cut.draw(&cell, law, draft))
 }
 
 impl Cut {
@@ -76,9 +62,8 @@ impl Cut {
             let points: Result<_, String> = cells.par_iter().map(energy).collect();
             series.push(dots(colour, points?));
         }
-        let caption = format!("{}: rod law (lines) and relaxed cells (dots).", self.title);
-        let labels = [self.over.1, "energy per length (pN)"];
-        draft.plot(self.file, self.title, labels, series, caption)
+        let values: Values<'_> = &[("title", &self.title), ("strain", &self.over.1)];
+        draft.plot(&*self.file, &ChartText::new("surface", values)?, series)
     }
 
     /// Strains along the curve of a value, with their abscissae.

@@ -1,18 +1,14 @@
 //! Figure 9: fits of twisting rigidity and length as functions of twist.
 
 use super::draft::Draft;
-use super::expected::MeasuredRow;
 use super::tables;
-use crate::fit::{TwistData, TwistFits, UnfittedData, draw, rms};
+use crate::fit::{FitData, TwistFits, UnfittedData, draw};
+use crate::statistics::rms;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_draw::report::{Origin, Picture, Row};
 
-const PUBLISHED: &str = "published parameters, rows of the paper to 200 deg";
-const REFITTED: &str = "published form, refitted to the same rows; not judged, because the minimum of the sum of \
-    squares cannot exceed the published one";
-
 pub(super) fn figure9(draft: &mut Draft<'_>) -> Result<(), String> {
-    let data = TwistData::from_paper(false)?;
+    let data = FitData::from_paper(false);
     let fits = TwistFits::new(&data)?;
     let [drawn, mean] = tables::monomers(draft)?;
     let beside = [(&drawn, true), (&mean, false)].map(|(data, dots)| UnfittedData { data, dots });
@@ -20,12 +16,8 @@ pub(super) fn figure9(draft: &mut Draft<'_>) -> Result<(), String> {
     draft.pictures = pictures
         .map(|(file, caption)| Picture { file, caption })
         .collect();
-    draft.settings = format!(
-        "Least squares on {}; {} initial guesses for each nonlinear fit. For comparison, our filaments of Tables 3 \
-         and 5: 64 sampled bonds per interface, and the mean filament.",
-        data.source,
-        fits.tanh.fit.starts.len()
-    );
+    let starts = fits.tanh.fit.starts.len();
+    draft.describe("fig9", &[("source", &data.source), ("starts", &starts)])?;
     goodness(draft, &fits);
     parameters(draft, &fits);
     for (name, ours) in [("monomers", &drawn), ("mean-filament", &mean)] {
@@ -34,33 +26,24 @@ pub(super) fn figure9(draft: &mut Draft<'_>) -> Result<(), String> {
     Ok(())
 }
 
+/// Rows of the residuals of all fits, with notes in `data/expected.csv`.
 fn goodness(draft: &mut Draft<'_>, fits: &TwistFits) {
     let b3 = "pN nm^2";
-    for (quantity, unit, rms, note) in [
-        ("b3_rms/published", b3, fits.published_b3_rms[0], PUBLISHED),
-        ("b3_rms/fitted", b3, fits.tanh.fit.goodness.rms, REFITTED),
-        (
-            "b3_rms/saturating",
-            b3,
-            fits.sided.1.fit.goodness.rms,
-            "seven parameters, saturating in both directions, fitted with relative weights",
-        ),
-        ("xi_rms/published", "", fits.published_xi_rms[0], PUBLISHED),
-        ("xi_rms/fitted", "", fits.polynomial.goodness.rms, REFITTED),
+    let smallest = |name| fits.smallest.named(name).basis.goodness().rms;
+    for (quantity, unit, rms) in [
+        ("b3_rms/published", b3, fits.published_b3_rms[0]),
+        ("b3_rms/fitted", b3, fits.tanh.fit.goodness.rms),
+        ("b3_rms/saturating", b3, smallest("twist")),
+        ("xi_rms/published", "", fits.published_xi_rms[0]),
+        ("xi_rms/fitted", "", fits.polynomial.goodness.rms),
         (
             "xi_rms/without-offset",
             "",
             fits.without_offset.goodness.rms,
-            "refitted with p_0 = 0, so that an untwisted rod keeps its length",
         ),
-        (
-            "xi_rms/two-slopes",
-            "",
-            fits.rooted.basis.goodness().rms,
-            "four parameters, separate slopes in under-twist and over-twist",
-        ),
+        ("xi_rms/two-slopes", "", smallest("length")),
     ] {
-        draft.row(quantity, unit, rms, note);
+        draft.row(quantity, unit, rms, "");
     }
 }
 
@@ -83,47 +66,29 @@ fn parameters(draft: &mut Draft<'_>, fits: &TwistFits) {
         let unit = if i == 3 { "" } else { "rad/nm" };
         let note = "not judged, because other parameters fit the rows better";
         let row = Row::measured(draft.id, format!("lambda/{i}"), unit, ours, note);
-        let row = Row {
+        draft.compared(Row {
             standard_error: fit.precision.standard_error(i - 1),
             ..row.with_reference(paper, Origin::Derived)
-        };
-        draft.rows.push(MeasuredRow { row, sd: 0.0 });
+        });
     }
 }
 
 /// Rows of the differences of our monomers from rows and laws of the paper.
-fn monomer_rows(draft: &mut Draft<'_>, name: &str, ours: &TwistData, paper: &TwistData) {
+fn monomer_rows(draft: &mut Draft<'_>, name: &str, ours: &FitData, paper: &FitData) {
     // Both columns contain the curvatures of the paper in the same order.
-    let differences = |ours: &[f64], theirs: &[f64]| {
-        crate::statistics::rms(ours.iter().zip(theirs).map(|(a, b)| a - b))
-    };
+    let differences =
+        |ours: &[f64], theirs: &[f64]| rms(ours.iter().zip(theirs).map(|(a, b)| a - b));
     let (b3, xi) = (TanhTwist::published(), PolynomialStretch::published());
     let (rows, law) = ("the rows of the paper", "the published law");
+    let b3_rows = differences(&ours.rigidity.value, &paper.rigidity.value);
+    let xi_rows = differences(&ours.length.value, &paper.length.value);
+    let b3_law = ours.rigidity.rms(|k| b3.secant(k), false);
+    let xi_law = ours.length.rms(|k| xi.extension(k), false);
     for (quantity, unit, value, from) in [
-        (
-            "b3_rms",
-            "pN nm^2",
-            differences(&ours.rigidity.value, &paper.rigidity.value),
-            rows,
-        ),
-        (
-            "b3_rms/published",
-            "pN nm^2",
-            rms(&ours.rigidity, |k| b3.secant(k), false),
-            law,
-        ),
-        (
-            "xi_rms",
-            "",
-            differences(&ours.length.value, &paper.length.value),
-            rows,
-        ),
-        (
-            "xi_rms/published",
-            "",
-            rms(&ours.length, |k| xi.extension(k), false),
-            law,
-        ),
+        ("b3_rms", "pN nm^2", b3_rows, rows),
+        ("b3_rms/published", "pN nm^2", b3_law, law),
+        ("xi_rms", "", xi_rows, rows),
+        ("xi_rms/published", "", xi_law, law),
     ] {
         let note = format!(
             "{}; root mean square difference from {from}, to 200 deg",

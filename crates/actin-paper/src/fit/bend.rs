@@ -1,12 +1,16 @@
 //! Fits of bending and shear: bending rigidity against curvature, twist and shear strain.
 
+use super::catalogue::Form;
 use super::column::Column;
 use super::measured::{BendData, Point};
 use super::parameter_fit::{Fault, ParameterFit};
-use super::search::{LawFit, SHEARED, TWISTED, stiffened};
+use super::search::{LawFit, stiffened};
 use crate::measure::{Specimen, bend_by_tip_force, shear_by_force};
+use crate::run::segments;
 use actin_cosserat::{CubicShear, Stiffening, StretchLaw};
-use actin_fit::{ClosureModel, Data, FitError, LevenbergMarquardt, Observations, Options, Starts};
+use actin_fit::{
+    ClosureModel, Data, FitError, LevenbergMarquardt, Model, Observations, Options, Starts,
+};
 use actin_sim::{BendLaw, RodLaw, RodLaws, RodModel, ShearLaw};
 
 /// Segment length of the fitted rods (nm).
@@ -38,7 +42,8 @@ pub(crate) struct BendFits {
 impl BendFits {
     /// Fits bending first, then the scales of twist and shear.
     pub(crate) fn new(data: &BendData) -> Result<Self, String> {
-        let bend = stiffened(&column(&data.bend))?;
+        let column: Column = data.bend.iter().map(|p| (p.x, p.mean)).collect();
+        let bend = stiffened(&column)?;
         let mut law = bend.law;
         let twist = fit_twist(data, law)?;
         law.twist = twist.fit.parameters[0];
@@ -64,9 +69,12 @@ impl BendFits {
 
     /// Parameters that are undetermined or at a bound.
     pub(super) fn faults(&self) -> Vec<Fault> {
-        let searches = [&self.twist, &self.shear].into_iter();
-        let faults = searches.flat_map(ParameterFit::faults);
-        faults.chain(self.bend.basis.faults()).collect()
+        [
+            self.twist.faults(),
+            self.shear.faults(),
+            self.bend.basis.faults(),
+        ]
+        .concat()
     }
 
     pub(crate) fn laws(&self) -> RodLaws {
@@ -95,39 +103,47 @@ fn relative(x: &[f64], width: usize, y: &[f64]) -> Result<Data, FitError> {
     Data::from_rows(width, x, Observations::new(y)?.with_weights(&weights)?)
 }
 
-fn column(points: &[Point]) -> Column {
-    let mut column = Column::default();
-    for point in points {
-        column.push(point.x, point.mean);
-    }
-    column
+/// Model with central differences as derivatives with respect to the parameters.
+fn with_differences(
+    parameters: usize,
+    value: impl Fn(&[f64], &[f64]) -> f64 + Clone,
+) -> impl Model {
+    let moved = value.clone();
+    ClosureModel::new(parameters, value, move |x, p, gradient: &mut [f64]| {
+        for (j, slope) in gradient.iter_mut().enumerate() {
+            let h = MOVE * p[j];
+            let at = |by: f64| {
+                let mut p = p.to_vec();
+                p[j] += by;
+                moved(x, &p)
+            };
+            *slope = (at(h) - at(-h)) / (2.0 * h);
+        }
+    })
 }
 
 /// Fits the twist at half the rise.
 fn fit_twist(data: &BendData, law: Stiffening) -> Result<ParameterFit, String> {
+    let form = Form::of("B against twist");
     let x: Vec<f64> = data
         .twisted
         .iter()
         .flat_map(|row| [row[0], row[1]])
         .collect();
     let y: Vec<f64> = data.twisted.iter().map(|row| row[2]).collect();
-    let secant = move |x: &[f64], twist: f64| Stiffening { twist, ..law }.secant(x[1], x[0]);
-    let model = ClosureModel::new(
-        1,
-        move |x, p| secant(x, p[0]),
-        move |x, p, gradient: &mut [f64]| {
-            let h = MOVE * p[0];
-            gradient[0] = (secant(x, p[0] + h) - secant(x, p[0] - h)) / (2.0 * h);
-        },
-    );
+    let secant = move |x: &[f64], p: &[f64]| {
+        let law = Stiffening { twist: p[0], ..law };
+        law.secant(x[1], x[0])
+    };
+    let model = with_differences(1, secant);
     let range = data
         .twisted
         .iter()
         .fold(0.0, |most: f64, row| row[0].abs().max(most));
     let bounds = vec![(5e-3 * range, 50.0 * range)];
     let starts = Starts::at(&[0.15 * range]).and_random(10, 1);
-    let data = relative(&x, 2, &y).map_err(|e| format!("{}: {e}", TWISTED.what))?;
-    ParameterFit::search(&TWISTED, &model, &data, bounds, &starts)
+    let data = relative(&x, 2, &y).map_err(|e| format!("{}: {e}", form.what))?;
+    ParameterFit::search(form, &model, &data, bounds, &starts)
 }
 
 /// Tips (`true`) and guided ends (`false`).
@@ -138,6 +154,7 @@ fn beams(data: &BendData) -> impl Iterator<Item = (bool, Point)> + '_ {
 
 /// Fits cubic shear and the shear scale of the bending law to deflections under the same loads.
 fn fit_shear(data: &BendData, law: Stiffening) -> Result<ParameterFit, String> {
+    let form = Form::of("shear");
     let all: Vec<(bool, Point)> = beams(data).collect();
     let x: Vec<f64> = (0..all.len()).map(|i| i as f64).collect();
     let y: Vec<f64> = all.iter().map(|(_, p)| p.mean).collect();
@@ -150,41 +167,22 @@ fn fit_shear(data: &BendData, law: Stiffening) -> Result<ParameterFit, String> {
         let (is_tip, point) = all[x[0] as usize];
         shift(is_tip, &point, Stiffening { shear: p[1], ..law }, p[0])
     };
-    let slopes = {
-        let rod = rod.clone();
-        move |x: &[f64], p: &[f64], gradient: &mut [f64]| {
-            for j in 0..2 {
-                let h = MOVE * p[j];
-                let at = |side: f64| {
-                    let mut moved = [p[0], p[1]];
-                    moved[j] += side * h;
-                    rod(x, &moved)
-                };
-                gradient[j] = (at(1.0) - at(-1.0)) / (2.0 * h);
-            }
-        }
-    };
     let bounds = vec![(1e4, 1e8), (1e-4, 1.0)];
-    let model = ClosureModel::new(2, rod, slopes);
-    let data = relative(&x, 1, &y).map_err(|e| format!("{}: {e}", SHEARED.what))?;
+    let model = with_differences(2, rod);
+    let data = relative(&x, 1, &y).map_err(|e| format!("{}: {e}", form.what))?;
     let options = Options {
         cosine: COSINE,
         ..Options::default()
     };
     let method = LevenbergMarquardt::new(options).map_err(|e| e.to_string())?;
     let starts = Starts::at(&[1e6, 1e-2]);
-    ParameterFit::search_by(method, &SHEARED, &model, &data, bounds, &starts)
+    ParameterFit::search_by(method, form, &model, &data, bounds, &starts)
 }
 
 /// Deflection (nm) of a rod under the load of `point`; NaN without an equilibrium.
 fn shift(is_tip: bool, point: &Point, law: Stiffening, cubic_pn: f64) -> f64 {
     let rod = RodModel::with_law(RodLaw::Laws(Box::new(laws(law, cubic_pn))));
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "tens of segments"
-    )]
-    let segments = (point.length_nm / SEGMENT_NM).round() as usize;
+    let segments = segments(point.length_nm, SEGMENT_NM);
     let specimen = Specimen::rod(point.length_nm, Some(segments), rod);
     let found = if is_tip {
         bend_by_tip_force(&specimen, &[point.x], 0.0)

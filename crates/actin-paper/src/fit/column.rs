@@ -1,5 +1,6 @@
 //! Values against a variable, with standard errors.
 
+use crate::statistics::{largest, rms};
 use actin_fit::{Data, FitError, Observations};
 
 /// Values against a variable: twist (rad/nm, positive in over-twist), curvature (rad/nm) or force
@@ -80,6 +81,28 @@ impl Column {
     /// Returns `true` if the standard errors are known.
     pub(crate) fn is_known(&self) -> bool {
         !self.error.is_empty()
+    }
+
+    /// Differences, or relative differences, between `law` and the values.
+    fn errors<'a>(
+        &'a self,
+        law: impl Fn(f64) -> f64 + 'a,
+        relative: bool,
+    ) -> impl Iterator<Item = f64> + 'a {
+        self.pairs().map(move |(x, value)| {
+            let scale = if relative { value } else { 1.0 };
+            (law(x) - value) / scale
+        })
+    }
+
+    /// Root mean square of the differences from `law`.
+    pub(crate) fn rms(&self, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
+        rms(self.errors(law, relative))
+    }
+
+    /// Largest difference from `law`.
+    pub(super) fn largest_error(&self, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
+        largest(self.errors(law, relative).map(f64::abs))
     }
 
     /// Converts the column to data for a fit, weighted by its standard errors if known.

@@ -1,10 +1,9 @@
 //! Data from filaments of monomers: twisted, bent and sheared.
 
-use super::column::Column;
-use super::data::TwistData;
+use super::table::FitData;
 use crate::measure::{
-    Curve, MeasureError, Specimen, bend_by_couples, bend_by_tip_force, bend_twisted, sampled_by,
-    shear_by_force, stretch_by_force, twist,
+    Curve, MeasureError, Specimen, TwistPoint, bend_by_couples, bend_by_tip_force, bend_twisted,
+    sampled_by, shear_by_force, stretch_by_force, twist,
 };
 use actin_sim::Monomers;
 use rayon::prelude::*;
@@ -66,20 +65,18 @@ fn failed(what: &str) -> impl Fn(MeasureError) -> String + '_ {
 }
 
 /// B3 and dL/L of the default filament with quadrature bonds.
-pub(super) fn twisted() -> Result<TwistData, String> {
+pub(super) fn twisted() -> Result<FitData, String> {
     let turns: Vec<f64> = TURNS_DEG.iter().flat_map(|&turn| [-turn, turn]).collect();
     let curve = twist(&filament(SHORT), &turns).map_err(failed("twisting"))?;
-    let column = |value: fn(&crate::measure::TwistPoint) -> f64| {
-        let mut column = Column::default();
-        for point in &curve.points {
-            column.push(point.curvature_rad_per_nm, value(point));
-        }
-        column
+    let column = |value: fn(&TwistPoint) -> f64| {
+        let points = curve.points.iter();
+        points.map(|p| (p.curvature_rad_per_nm, value(p))).collect()
     };
-    Ok(TwistData {
+    Ok(FitData {
         source: "the mean filament, 73.9 nm, measured now".to_owned(),
         rigidity: column(|p| p.rigidity_pn_nm2),
         length: column(|p| p.relative_length_change),
+        ..FitData::default()
     })
 }
 

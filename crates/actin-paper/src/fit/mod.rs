@@ -1,9 +1,10 @@
 //! Fits of rod laws to tables or to filaments of monomers.
 
 mod bend;
+mod catalogue;
 mod column;
-mod data;
 mod forms;
+mod groups;
 mod measured;
 mod parameter_fit;
 mod pictures;
@@ -13,15 +14,15 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod twist;
-mod user_table;
 mod write;
 
-pub(crate) use data::TwistData;
 pub(crate) use pictures::{UnfittedData, draw};
-pub(crate) use twist::{TwistFits, rms};
+pub(crate) use table::FitData;
+pub(crate) use twist::TwistFits;
 
 use crate::ProgressSink;
 use bend::BendFits;
+use groups::GroupFits;
 use measured::BendData;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -52,7 +53,7 @@ pub fn run(options: &Options, tell: ProgressSink<'_>) -> Result<(), String> {
     let out: &Path = &options.out;
     search::check_keys(&options.allow_bounds)?;
     match &options.data {
-        Some(path) => user_table::run(path, &options.allow_bounds, out, tell)?,
+        Some(path) => user_table(path, &options.allow_bounds, out, tell)?,
         None => tables(options, out, tell)?,
     }
     tell(format_args!(
@@ -63,12 +64,28 @@ pub fn run(options: &Options, tell: ProgressSink<'_>) -> Result<(), String> {
     Ok(())
 }
 
+/// Fits a user's table.
+fn user_table(
+    path: &Path,
+    allowed: &[String],
+    out: &Path,
+    tell: ProgressSink<'_>,
+) -> Result<(), String> {
+    let data = FitData::from_csv(path)?;
+    let fits = GroupFits::new(&data)?;
+    tell(format_args!("data: {}", data.source));
+    print::groups(tell, &fits);
+    parameter_fit::accept(&fits.faults(), allowed)?;
+    write::create(out)?;
+    write::groups(&fits, out)
+}
+
 /// Fits the paper's tables, or newly measured filaments.
 fn tables(options: &Options, out: &Path, tell: ProgressSink<'_>) -> Result<(), String> {
     let data = if options.measure {
         measured::twisted()?
     } else {
-        TwistData::from_paper(options.all_rows)?
+        FitData::from_paper(options.all_rows)
     };
     let fits = TwistFits::new(&data)?;
     print::twist(tell, &data, &fits);

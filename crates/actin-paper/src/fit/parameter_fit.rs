@@ -1,14 +1,7 @@
 //! Result of a parameter search, and the checks before it becomes a law.
 
+use super::catalogue::Form;
 use actin_fit::{Bounds, Data, Fit, FitError, LevenbergMarquardt, Model, Starts, Status};
-
-/// Names of the parameters of a form (keys of `--allow-bounds`) and units.
-#[derive(Debug, PartialEq)]
-pub(super) struct Form {
-    /// Name of the fitted quantity.
-    pub what: &'static str,
-    pub parameters: &'static [(&'static str, &'static str)],
-}
 
 #[derive(Clone, Debug)]
 pub(crate) struct ParameterFit {
@@ -59,9 +52,9 @@ impl ParameterFit {
 
     /// Parameters that are at a bound or that the data do not determine.
     pub(super) fn faults(&self) -> Vec<Fault> {
-        let all = self.form.parameters.iter().zip(&self.fit.parameters);
-        let fault = |(j, (&(key, unit), value)): (usize, (&(&'static str, &str), &f64))| {
-            let what = self.form.what;
+        let parameters = self.form.parameters.iter().enumerate();
+        let faults = parameters.filter_map(|(j, (key, unit))| {
+            let (what, value) = (&self.form.what, self.fit.parameters[j]);
             let (lower, upper) = self.bounds[j];
             let at = |side: &str, bound: f64| {
                 Some(format!(
@@ -79,8 +72,8 @@ impl ParameterFit {
                 message,
                 is_bound: self.fit.statuses[j] != Status::Undetermined,
             })
-        };
-        all.enumerate().filter_map(fault).collect()
+        });
+        faults.collect()
     }
 }
 

@@ -1,7 +1,8 @@
 //! Figure 9: B3 and the change of length against twist, data and curves.
 
 use super::column::Column;
-use super::data::TwistData;
+use super::groups::GroupFit;
+use super::table::FitData;
 use super::twist::TwistFits;
 use crate::charts::line;
 use crate::palette;
@@ -9,16 +10,6 @@ use crate::statistics::sample;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_draw::{Chart, Mark, Series};
 use std::path::Path;
-
-pub(super) struct LawCurve<'a> {
-    /// Stem of file names.
-    pub name: &'static str,
-    pub title: &'static str,
-    pub x_label: &'static str,
-    pub y_label: &'static str,
-    pub data: &'a Column,
-    pub law: Box<dyn Fn(f64) -> f64 + 'a>,
-}
 
 /// Colours of the published parameters, of the refitted form, and of a smaller form.
 const PUBLISHED: usize = 0;
@@ -31,7 +22,7 @@ const CURVE: i32 = 600;
 
 /// Data that are drawn but not fitted.
 pub(crate) struct UnfittedData<'a> {
-    pub data: &'a TwistData,
+    pub data: &'a FitData,
     /// Draws dots instead of a line.
     pub dots: bool,
 }
@@ -43,20 +34,21 @@ struct Panel<'a> {
     file: &'static str,
     title: &'static str,
     y_label: &'static str,
-    column: fn(&TwistData) -> &Column,
+    column: fn(&FitData) -> &Column,
     scale: f64,
     laws: [(&'static str, Law<'a>); 3],
 }
 
 /// Writes `figure-9a.svg` and `figure-9b.svg`; returns their names and captions.
 pub(crate) fn draw(
-    data: &TwistData,
+    data: &FitData,
     fits: &TwistFits,
     beside: &[UnfittedData<'_>],
     out: &Path,
 ) -> Result<Vec<(String, String)>, String> {
-    let (tanh, sided) = (fits.tanh_law(&fits.tanh.fit), fits.sided.0);
-    let (polynomial, rooted) = (fits.polynomial_law(&fits.polynomial), fits.rooted.law);
+    let tanh = fits.tanh_law(&fits.tanh.fit);
+    let polynomial = fits.polynomial_law(&fits.polynomial);
+    let [sided, rooted] = ["twist", "length"].map(|name| &fits.smallest.named(name).law);
     let (b3, xi) = (TanhTwist::published(), PolynomialStretch::published());
     let rigidity = Panel {
         file: "figure-9a.svg",
@@ -67,10 +59,7 @@ pub(crate) fn draw(
         laws: [
             ("published parameters", Box::new(move |k| b3.secant(k))),
             ("the same form, refitted", Box::new(move |k| tanh.secant(k))),
-            (
-                "saturating to either side",
-                Box::new(move |k| sided.secant(k)),
-            ),
+            ("saturating to either side", Box::new(sided)),
         ],
     };
     let length = Panel {
@@ -85,7 +74,7 @@ pub(crate) fn draw(
                 "refitted polynomial",
                 Box::new(move |k| polynomial.extension(k)),
             ),
-            ("two slopes", Box::new(move |k| rooted.jet(k)[0])),
+            ("two slopes", Box::new(rooted)),
         ],
     };
     let panels = [rigidity, length].into_iter();
@@ -95,7 +84,7 @@ pub(crate) fn draw(
 impl Panel<'_> {
     fn draw(
         &self,
-        data: &TwistData,
+        data: &FitData,
         beside: &[UnfittedData<'_>],
         out: &Path,
     ) -> Result<(String, String), String> {
@@ -151,16 +140,16 @@ fn dots(column: &Column, label: &str, scale: f64) -> Series {
 }
 
 /// Draws a law and its data over the range of the data.
-pub(super) fn curve_with_data(data: &LawCurve<'_>, out: &Path) -> Result<(), String> {
-    let range = sample(data.data.x.iter().copied().chain([0.0]));
-    let points = curve([range.low, range.high], &data.law);
+pub(super) fn curve_with_data(fit: &GroupFit, out: &Path) -> Result<(), String> {
+    let range = sample(fit.column.x.iter().copied().chain([0.0]));
+    let points = curve([range.low, range.high], &fit.law);
     let law = line("law", palette::line(SMALLEST), points);
     let chart = Chart {
-        title: data.title,
-        x_label: data.x_label,
-        y_label: data.y_label,
-        series: vec![law, dots(data.data, "data", 1.0)],
+        title: &fit.group.title,
+        x_label: &fit.group.x,
+        y_label: &fit.group.value,
+        series: vec![law, dots(&fit.column, "data", 1.0)],
         equal_axes: false,
     };
-    chart.draw(&out.join(format!("{}.svg", data.name)))
+    chart.draw(&out.join(format!("{}.svg", fit.group.name)))
 }

@@ -1,12 +1,12 @@
 //! Printed results of the fits.
 
 use super::bend::BendFits;
-use super::column::Column;
-use super::data::TwistData;
+use super::groups::{GroupFit, GroupFits};
 use super::measured::BendData;
 use super::parameter_fit::ParameterFit;
 use super::search::Basis;
-use super::twist::{TwistFits, rms};
+use super::table::FitData;
+use super::twist::TwistFits;
 use crate::ProgressSink;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_fit::{Goodness, LinearFit, Precision, Status};
@@ -14,13 +14,14 @@ use actin_fit::{Goodness, LinearFit, Precision, Status};
 /// Relative difference of chi squared below which two starts found the same minimum.
 const SAME: f64 = 1e-6;
 
-pub(super) fn twist(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
+pub(super) fn twist(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
     tell(format_args!("data: {}", data.source));
     length(tell, data, fits);
     rigidity(tell, data, fits);
+    groups(tell, &fits.smallest);
 }
 
-fn length(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
+fn length(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
     let xi = &data.length;
     tell(format_args!(
         "\nxi - 1 = sum p_i kappa^i, {} values",
@@ -34,19 +35,9 @@ fn length(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
     ));
     tell(format_args!("\nthe same without p_0"));
     polynomial(tell, &fits.without_offset, &published[1..]);
-    tell(format_args!(
-        "\nxi - 1 = slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3"
-    ));
-    basis(tell, &fits.rooted.basis);
-    let law = fits.rooted.law;
-    tell(format_args!(
-        "  rms {:.3e}, largest {:.1e}",
-        fits.rooted.basis.goodness().rms,
-        largest(xi, |k| law.jet(k)[0], false)
-    ));
 }
 
-fn rigidity(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
+fn rigidity(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
     let b3 = &data.rigidity;
 
     tell(format_args!(
@@ -64,37 +55,47 @@ fn rigidity(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
     tell(format_args!("\nB3, published form, relative weights"));
     nonlinear(tell, &fits.tanh_relative, Some(&published.lambda));
     let relative =
-        |found: &ParameterFit| 100.0 * rms(b3, |k| fits.tanh_law(&found.fit).secant(k), true);
+        |found: &ParameterFit| 100.0 * b3.rms(|k| fits.tanh_law(&found.fit).secant(k), true);
     tell(format_args!(
         "  rms {:.2} % relative (equal weights: {:.2} %)",
         relative(&fits.tanh_relative),
         relative(&fits.tanh)
     ));
-    saturating(tell, data, fits);
 }
 
-fn saturating(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
-    let b3 = &data.rigidity;
-    tell(format_args!(
-        "\nB3 = rest + rise k^2/(k^2 + slow |k| + half^2), relative weights"
-    ));
-    nonlinear(tell, &fits.sided.1, None);
-    let law = fits.sided.0;
-    tell(format_args!(
-        "  rms {:.2} % relative, largest {:.1} %; {:.1} pN nm^2",
-        100.0 * rms(b3, |k| law.secant(k), true),
-        100.0 * largest(b3, |k| law.secant(k), true),
-        rms(b3, |k| law.secant(k), false)
-    ));
+/// Prints form, parameters and deviations of all groups.
+pub(super) fn groups(tell: ProgressSink<'_>, fits: &GroupFits) {
+    for fit in &fits.fits {
+        group(tell, fit);
+    }
 }
 
-/// Largest difference, or relative difference, between `law` and a column.
-pub(super) fn largest(column: &Column, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
-    let differences = column.pairs().map(|(k, value)| {
-        let scale = if relative { value } else { 1.0 };
-        ((law(k) - value) / scale).abs()
-    });
-    differences.fold(0.0, f64::max)
+fn group(tell: ProgressSink<'_>, fit: &GroupFit) {
+    let (column, law) = (&fit.column, &fit.law);
+    let weights = if column.is_known() {
+        "weighted by their standard errors"
+    } else {
+        "without standard errors"
+    };
+    let (formula, count) = (&fit.group.formula, column.len());
+    tell(format_args!("\n{formula}, {count} values {weights}"));
+    basis(tell, &fit.basis);
+    if let Some(remark) = &fit.remark {
+        tell(format_args!("{remark}"));
+    }
+    if column.is_known() {
+        chi_squared(tell, fit.basis.goodness());
+    }
+    let (rms, largest) = (column.rms(law, false), column.largest_error(law, false));
+    tell(format_args!("  rms {rms:.3e}, largest {largest:.1e}"));
+    if fit.group.is_rigidity {
+        let [rms, largest] = [column.rms(law, true), column.largest_error(law, true)];
+        tell(format_args!(
+            "  relative: rms {:.2} %, largest {:.1} %",
+            100.0 * rms,
+            100.0 * largest
+        ));
+    }
 }
 
 pub(super) fn bend(tell: ProgressSink<'_>, data: &BendData, fits: &BendFits) {
@@ -153,7 +154,7 @@ fn standard_error(precision: &Precision, j: usize) -> String {
         .map_or_else(|| "   -   ".into(), |e| format!("{e:7.1e}"))
 }
 
-pub(super) fn basis(tell: ProgressSink<'_>, basis: &Basis) {
+fn basis(tell: ProgressSink<'_>, basis: &Basis) {
     match basis {
         Basis::Full(found) => nonlinear(tell, found, None),
         Basis::Simple { note, names, fit } => {
@@ -167,7 +168,7 @@ pub(super) fn basis(tell: ProgressSink<'_>, basis: &Basis) {
 }
 
 /// Prints chi squared of values with standard errors.
-pub(super) fn chi_squared(tell: ProgressSink<'_>, goodness: &Goodness) {
+fn chi_squared(tell: ProgressSink<'_>, goodness: &Goodness) {
     let freedom = goodness.degrees_of_freedom;
     tell(format_args!(
         "  chi^2 = {:.4} for {freedom} degrees of freedom; errors follow the given standard errors",
@@ -175,8 +176,8 @@ pub(super) fn chi_squared(tell: ProgressSink<'_>, goodness: &Goodness) {
     ));
 }
 
-pub(super) fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published: Option<&[f64]>) {
-    let (fit, parameters) = (&found.fit, found.form.parameters);
+fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published: Option<&[f64]>) {
+    let (fit, parameters) = (&found.fit, &found.form.parameters);
     for (j, ((key, unit), value)) in parameters.iter().zip(&fit.parameters).enumerate() {
         let error = standard_error(&fit.precision, j);
         let theirs = published.map_or_else(String::new, |p| format!(", published {:11.4e}", p[j]));
@@ -192,7 +193,7 @@ pub(super) fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published:
             "  {key:18} = {value:12.5e} +- {error} {unit}{theirs}{status}"
         ));
     }
-    let keys: Vec<&str> = parameters.iter().map(|(key, _)| *key).collect();
+    let keys: Vec<&str> = parameters.iter().map(|(key, _)| key.as_str()).collect();
     tell(format_args!(
         "  largest correlation {}",
         strongest(&fit.precision, &keys)

@@ -1,33 +1,12 @@
 //! Fits of rod laws to columns. Bounds and starts scale with the data. A simpler form is used if it
 //! fits the data as well.
 
+use super::catalogue::{CATALOGUE, Form};
 use super::column::{Column, Weight};
 use super::forms::{Rooted, Sided, Stiffened, Stretched};
-use super::parameter_fit::{Fault, Form, ParameterFit};
+use super::parameter_fit::{Fault, ParameterFit};
 use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw};
 use actin_fit::{Data, FitError, Goodness, LinearFit, Mat, Noise, Starts, fit_linear};
-
-pub(super) const TWISTED: Form = Form {
-    what: "B against twist",
-    parameters: &[("bend.twist", "rad/nm")],
-};
-pub(super) const SHEARED: Form = Form {
-    what: "shear",
-    parameters: &[("shear.cubic", "pN"), ("bend.shear", "of strain")],
-};
-
-pub(super) const TANH: Form = Form {
-    what: "published form of B3",
-    parameters: &[
-        ("published.lambda_1", "rad/nm"),
-        ("published.lambda_2", "rad/nm"),
-        ("published.lambda_3", ""),
-        ("published.lambda_4", "rad/nm"),
-        ("published.lambda_5", "rad/nm"),
-        ("published.lambda_6", "rad/nm"),
-        ("published.lambda_7", "rad/nm"),
-    ],
-};
 
 /// Number of random starts of each search, and their seed.
 pub(super) const STARTS: (usize, u64) = (200, 20_220_304);
@@ -37,47 +16,6 @@ const FEWEST: usize = 3;
 const CHANCE: f64 = 1e-3;
 /// Relative residual below which a form fits to rounding.
 const ROUNDING: f64 = 1e-12;
-
-const SIDED: Form = Form {
-    what: "B3 against twist",
-    parameters: &[
-        ("b3.rest", "pN nm^2"),
-        ("b3.under.rise", "pN nm^2"),
-        ("b3.under.half", "rad/nm"),
-        ("b3.under.slow", "rad/nm"),
-        ("b3.over.rise", "pN nm^2"),
-        ("b3.over.half", "rad/nm"),
-        ("b3.over.slow", "rad/nm"),
-    ],
-};
-
-const ROOTED: Form = Form {
-    what: "length against twist",
-    parameters: &[
-        ("length.slope", "nm"),
-        ("length.bend", "nm"),
-        ("length.half", "rad/nm"),
-        ("length.cubic", "nm^3"),
-    ],
-};
-
-const STIFFENED: Form = Form {
-    what: "B against curvature",
-    parameters: &[
-        ("bend.rest", "pN nm^2"),
-        ("bend.rise", "pN nm^2"),
-        ("bend.curvature", "rad/nm"),
-    ],
-};
-
-const STRETCHED: Form = Form {
-    what: "strain against force",
-    parameters: &[
-        ("stretch.tension", "pN"),
-        ("stretch.compression", "pN"),
-        ("stretch.width", "of strain"),
-    ],
-};
 
 /// A law with its fit.
 #[derive(Clone, Debug)]
@@ -118,17 +56,18 @@ impl Basis {
 }
 
 /// Fits B3 against twist with a rise on each side; needs three values on each side.
-pub(super) fn sided(column: &Column) -> Result<(SidedTwist, ParameterFit), String> {
+pub(super) fn sided(column: &Column) -> Result<LawFit<SidedTwist>, String> {
+    let form = Form::of("B3 against twist");
     for (side, sign) in [("under", -1.0), ("over", 1.0)] {
         let count = column.on_side(sign);
         if count < FEWEST {
             return Err(format!(
                 "{}: {count} values of {side}-twist, at least {FEWEST} are needed",
-                SIDED.what
+                form.what
             ));
         }
     }
-    let data = observed(&SIDED, column, Weight::Relative)?;
+    let data = observed(form, column, Weight::Relative)?;
     let (most, range) = (column.largest(), column.range());
     let side = [
         (1e-3 * most, 20.0 * most),
@@ -149,17 +88,21 @@ pub(super) fn sided(column: &Column) -> Result<(SidedTwist, ParameterFit), Strin
         scale,
     ];
     let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
-    let form = Sided { range };
-    let found = ParameterFit::search(&SIDED, &form, &data, bounds, &starts)?;
-    Ok((form.law(&found.fit.parameters), found))
+    let model = Sided { range };
+    let found = ParameterFit::search(form, &model, &data, bounds, &starts)?;
+    Ok(LawFit {
+        law: model.law(&found.fit.parameters),
+        basis: Basis::Full(found),
+    })
 }
 
 /// Fits length against twist with two slopes and a cubic term, or one slope and a cubic term.
 pub(super) fn rooted(column: &Column) -> Result<LawFit<RootedStretch>, String> {
-    let data = observed(&ROOTED, column, Weight::Equal)?;
+    let form = Form::of("length against twist");
+    let data = observed(form, column, Weight::Equal)?;
     let range = column.range();
     let design = Mat::from_fn(data.len(), 2, |i, j| data.row(i)[0].powi([1, 3][j]));
-    let straight = simple(&ROOTED, fit_linear(design.as_ref(), data.observations()))?;
+    let straight = simple(form, fit_linear(design.as_ref(), data.observations()))?;
     let slope = column.largest() / range;
     let full = || {
         let heights = (-20.0 * slope, 20.0 * slope);
@@ -172,7 +115,7 @@ pub(super) fn rooted(column: &Column) -> Result<LawFit<RootedStretch>, String> {
             0.0,
         ];
         let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
-        ParameterFit::search(&ROOTED, &Rooted { range }, &data, bounds, &starts)
+        ParameterFit::search(form, &Rooted { range }, &data, bounds, &starts)
     };
     if let Some(found) = unless_simple(&data, &straight, full)? {
         let law = Rooted { range }.law(&found.fit.parameters);
@@ -196,10 +139,11 @@ pub(super) fn rooted(column: &Column) -> Result<LawFit<RootedStretch>, String> {
 
 /// Fits B against curvature: a rise from `rest`, or a constant. Softening is an error.
 pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
-    let data = observed(&STIFFENED, column, Weight::Relative)?;
+    let form = Form::of("B against curvature");
+    let data = observed(form, column, Weight::Relative)?;
     let (most, range) = (column.largest(), column.range());
     let ones = Mat::full(data.len(), 1, 1.0);
-    let constant = simple(&STIFFENED, fit_linear(ones.as_ref(), data.observations()))?;
+    let constant = simple(form, fit_linear(ones.as_ref(), data.observations()))?;
     let full = || {
         // The search includes negative rises, so that softening data are refused and not fitted by
         // a constant.
@@ -211,7 +155,7 @@ pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
         let rest = column.at_rest();
         let start = [rest, (most - rest).max(0.05 * most), 0.2 * range];
         let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
-        ParameterFit::search(&STIFFENED, &Stiffened { range }, &data, bounds, &starts)
+        ParameterFit::search(form, &Stiffened { range }, &data, bounds, &starts)
     };
     let chosen = match unless_simple(&data, &constant, full)? {
         Some(found) => LawFit {
@@ -227,7 +171,7 @@ pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
             },
         },
     };
-    let refused = |e| format!("{}: {e}: no law softens", STIFFENED.what);
+    let refused = |e| format!("{}: {e}: no law softens", form.what);
     chosen.law.validate().map_err(refused)?;
     Ok(chosen)
 }
@@ -235,12 +179,13 @@ pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
 /// Fits strain against force with one rigidity for each side, or one for both. A strain that
 /// opposes its force is an error.
 pub(super) fn stretched(column: &Column) -> Result<LawFit<StretchLaw>, String> {
-    let data = observed(&STRETCHED, column, Weight::Equal)?;
+    let form = Form::of("strain against force");
+    let data = observed(form, column, Weight::Equal)?;
     let forces = Mat::from_fn(data.len(), 1, |i, _| data.row(i)[0]);
-    let constant = simple(&STRETCHED, fit_linear(forces.as_ref(), data.observations()))?;
+    let constant = simple(form, fit_linear(forces.as_ref(), data.observations()))?;
     let rigidity = constant.parameters[0].recip();
     if !(rigidity > 0.0 && rigidity.is_finite()) {
-        let what = STRETCHED.what;
+        let what = &form.what;
         return Err(format!(
             "{what}: strain must grow with force, tension being positive"
         ));
@@ -250,7 +195,7 @@ pub(super) fn stretched(column: &Column) -> Result<LawFit<StretchLaw>, String> {
         let sides = (1e-2 * rigidity, 1e2 * rigidity);
         let bounds = vec![sides, sides, (1e-3 * most, 2.0 * most)];
         let starts = Starts::at(&[rigidity, rigidity, 0.1 * most]).and_random(STARTS.0, STARTS.1);
-        ParameterFit::search(&STRETCHED, &Stretched, &data, bounds, &starts)
+        ParameterFit::search(form, &Stretched, &data, bounds, &starts)
     };
     let has_sides = [-1.0, 1.0].map(|sign| column.on_side(sign) >= FEWEST) == [true; 2];
     let found = if has_sides {
@@ -282,11 +227,8 @@ const ONE_RIGIDITY: [&str; 2] = [
 
 /// Returns an error if a key is not a parameter of a search.
 pub(super) fn check_keys(keys: &[String]) -> Result<(), String> {
-    let forms = [
-        &SIDED, &ROOTED, &STIFFENED, &STRETCHED, &TWISTED, &SHEARED, &TANH,
-    ];
-    let known = forms.iter().flat_map(|form| form.parameters);
-    let known: Vec<&str> = known.map(|(key, _)| *key).collect();
+    let known = CATALOGUE.forms.iter().flat_map(|form| &form.parameters);
+    let known: Vec<&str> = known.map(|(key, _)| key.as_str()).collect();
     match keys.iter().find(|key| !known.contains(&key.as_str())) {
         None => Ok(()),
         Some(key) => Err(format!(

@@ -1,13 +1,15 @@
-//! A user's table, read from CSV. Its format is described in `docs/how-to/rod-laws.md`.
+//! Data of the fits: Tables 3 and 5 of the paper, or a user's table in the format of `docs/how-to/rod-laws.md`.
 
+use super::catalogue::{CATALOGUE, Group};
 use super::column::Column;
+use crate::published::{Table, entries};
 use csv::StringRecord;
 use std::path::Path;
 
-/// Columns of a user's table; missing columns are empty.
+/// Data of the fits; missing columns are empty.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Table {
-    /// Path of the file.
+pub(crate) struct FitData {
+    /// Path of the file, or description of the source.
     pub source: String,
     /// Secant twisting rigidity (pN nm^2) against twist (rad/nm).
     pub rigidity: Column,
@@ -19,43 +21,6 @@ pub(super) struct Table {
     pub stretch: Column,
 }
 
-/// Names of columns that belong together.
-struct Group {
-    x: &'static str,
-    value: &'static str,
-    error: &'static str,
-    /// `true` if values must be positive.
-    is_rigidity: bool,
-}
-
-/// The groups, in the order of the columns of [`Table`].
-const GROUPS: [Group; 4] = [
-    Group {
-        x: "kappa3_rad_per_nm",
-        value: "b3_pn_nm2",
-        error: "b3_error_pn_nm2",
-        is_rigidity: true,
-    },
-    Group {
-        x: "kappa3_rad_per_nm",
-        value: "dl_over_l",
-        error: "dl_over_l_error",
-        is_rigidity: false,
-    },
-    Group {
-        x: "curvature_rad_per_nm",
-        value: "b_pn_nm2",
-        error: "b_error_pn_nm2",
-        is_rigidity: true,
-    },
-    Group {
-        x: "force_pn",
-        value: "strain",
-        error: "strain_error",
-        is_rigidity: false,
-    },
-];
-
 /// Valid values of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rule {
@@ -63,7 +28,27 @@ enum Rule {
     Positive,
 }
 
-impl Table {
+impl FitData {
+    /// Tables 3 and 5 of the paper; without the rows that it calls unreliable unless `all_rows`.
+    pub(crate) fn from_paper(all_rows: bool) -> Self {
+        let column = |table| {
+            let all = entries(table).into_iter();
+            let chosen = all.filter(|entry| all_rows || entry.is_reliable());
+            chosen.map(|e| (e.curvature, e.value)).collect()
+        };
+        let rows = if all_rows {
+            "all rows"
+        } else {
+            "rows to 200 deg"
+        };
+        Self {
+            source: format!("Tables 3 and 5 of the paper, {rows}"),
+            rigidity: column(Table::Rigidity),
+            length: column(Table::LengthChange),
+            ..Self::default()
+        }
+    }
+
     /// Reads columns with a header, in any order. Empty cells have no value. Lines that begin with
     /// `#` and a byte-order mark are skipped.
     ///
@@ -87,7 +72,7 @@ impl Table {
                 header: &header,
                 record: &record,
             };
-            for (group, column) in GROUPS.iter().zip(&mut columns) {
+            for (group, column) in CATALOGUE.groups.iter().zip(&mut columns) {
                 row.read(group, column).map_err(|e| format!("{name}:{e}"))?;
             }
         }
@@ -95,9 +80,8 @@ impl Table {
             return Err(format!("{name}: the table has no values"));
         }
         let [rigidity, length, bend, stretch] = columns;
-        let source = name.to_string();
         Ok(Self {
-            source,
+            source: name.to_string(),
             rigidity,
             length,
             bend,
@@ -108,10 +92,9 @@ impl Table {
 
 /// Refuses unknown, repeated and incomplete columns.
 fn check_header(header: &StringRecord) -> Result<(), String> {
-    let mut known: Vec<&str> = GROUPS
-        .iter()
-        .flat_map(|g| [g.x, g.value, g.error])
-        .collect();
+    let groups = &CATALOGUE.groups;
+    let columns = groups.iter().flat_map(|g| [&g.x, &g.value, &g.error]);
+    let mut known: Vec<&str> = columns.map(String::as_str).collect();
     known.dedup();
     let has = |key: &str| header.iter().any(|found| found == key);
     for (at, key) in header.iter().enumerate() {
@@ -123,17 +106,20 @@ fn check_header(header: &StringRecord) -> Result<(), String> {
             return Err(format!("column `{key}` occurs twice"));
         }
     }
-    for group in &GROUPS {
-        for (key, needed) in [(group.error, group.value), (group.value, group.x)] {
+    for group in groups {
+        for (key, needed) in [(&group.error, &group.value), (&group.value, &group.x)] {
             if has(key) && !has(needed) {
                 return Err(format!("column `{needed}` is missing: `{key}` needs it"));
             }
         }
     }
-    if GROUPS.iter().any(|group| has(group.value)) {
+    if groups.iter().any(|group| has(&group.value)) {
         return Ok(());
     }
-    let values = GROUPS.map(|group| group.value).join(", ");
+    let values = groups
+        .each_ref()
+        .map(|group| group.value.as_str())
+        .join(", ");
     Err(format!("a column of values is missing, one of {values}"))
 }
 
@@ -150,16 +136,16 @@ impl Row<'_> {
         } else {
             Rule::Finite
         };
-        let x = self.cell(group.x, Rule::Finite)?;
-        let value = self.cell(group.value, rule)?;
-        let error = self.cell(group.error, Rule::Positive)?;
+        let x = self.cell(&group.x, Rule::Finite)?;
+        let value = self.cell(&group.value, rule)?;
+        let error = self.cell(&group.error, Rule::Positive)?;
         let lacks =
             |key: &str, of: &str| Err(format!("{}: a `{of}` without its `{key}`", self.line()));
         match (x, value, error) {
-            (None, Some(_), _) => lacks(group.x, group.value),
-            (_, None, Some(_)) => lacks(group.value, group.error),
-            (_, Some(_), None) if self.place(group.error).is_some() => {
-                lacks(group.error, group.value)
+            (None, Some(_), _) => lacks(&group.x, &group.value),
+            (_, None, Some(_)) => lacks(&group.value, &group.error),
+            (_, Some(_), None) if self.place(&group.error).is_some() => {
+                lacks(&group.error, &group.value)
             }
             (Some(x), Some(value), error) => {
                 column.push(x, value);
@@ -207,11 +193,19 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn read(text: impl AsRef<[u8]>) -> Result<Table, String> {
+    fn read(text: impl AsRef<[u8]>) -> Result<FitData, String> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("table.csv");
         std::fs::write(&path, text).unwrap();
-        Table::from_csv(&path)
+        FitData::from_csv(&path)
+    }
+
+    #[test]
+    fn reliable_rows_are_22_of_26() {
+        assert_eq!(FitData::from_paper(false).rigidity.len(), 22);
+        let all = FitData::from_paper(true);
+        assert_eq!(all.length.len(), 26);
+        assert!((all.length.range() - 0.0555).abs() < 1e-12);
     }
 
     #[test]

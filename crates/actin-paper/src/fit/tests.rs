@@ -2,9 +2,9 @@
 
 use super::column::Column;
 use super::forms::{Rooted, Sided, Stiffened, Stretched};
+use super::groups::GroupFits;
 use super::search::{Basis, LawFit, rooted, sided, stiffened, stretched};
-use super::table::Table;
-use super::user_table::UserTableFits;
+use super::table::FitData;
 use super::{Options, run};
 use crate::measure::{Specimen, bend_by_couples, stretch_by_force, twist};
 use crate::run::run_to_end;
@@ -100,10 +100,9 @@ fn twist_is_recovered_at_every_scale() {
                 0.3 * range,
             ];
             let column = observed(&Sided { range }, &sides(40, range), &truth, 0.01, seed);
-            let (law, found) = sided(&column).unwrap();
-            assert!(found.faults().is_empty(), "{rest}: {:?}", found.faults());
-            assert_near(&found.fit, &truth);
-            assert!((law.range / range - 1.0).abs() < 1e-12);
+            let fit = sided(&column).unwrap();
+            assert_near(full(&fit), &truth);
+            assert!((fit.law.range / range - 1.0).abs() < 1e-12);
         }
     }
 }
@@ -118,15 +117,8 @@ fn laws_are_recovered_without_noise() {
             }
         };
         let truth = [size, 3.0 * size, 0.01, 0.02, 5.0 * size, 0.012, 0.01];
-        let (_, found) = sided(&observed(
-            &Sided { range },
-            &sides(15, range),
-            &truth,
-            0.0,
-            1,
-        ))
-        .unwrap();
-        near(&found.fit, &truth);
+        let column = observed(&Sided { range }, &sides(15, range), &truth, 0.0, 1);
+        near(full(&sided(&column).unwrap()), &truth);
         let truth = [-0.3 * size, 0.45 * size, 7e-3, 30.0 * size];
         let column = observed(&Rooted { range }, &sides(15, range), &truth, 0.0, 1);
         near(full(&rooted(&column).unwrap()), &truth);
@@ -191,7 +183,7 @@ fn stiff_data_are_fitted() {
     for x in sides(12, 0.05) {
         column.push(x, 8e3 + 12e3 * x * x / (x * x + 4e-4));
     }
-    let (law, found) = sided(&column).unwrap();
+    let law = sided(&column).unwrap().law;
     // The form is exact with `slow` = 0, which is a bound.
     for (x, value) in column.pairs() {
         assert!(
@@ -200,7 +192,7 @@ fn stiff_data_are_fitted() {
             law.secant(x)
         );
     }
-    assert!((found.fit.parameters[0] / 8e3 - 1.0).abs() < 1e-4);
+    assert!((law.rest / 8e3 - 1.0).abs() < 1e-4);
 }
 
 fn options(data: &Path, out: &Path, allowed: &[&str]) -> Options {
@@ -264,7 +256,7 @@ fn undetermined_parameters_are_refused() {
     for i in 0..10 {
         column.push(0.01 * f64::from(2 * (i % 2) - 1), 1e3 + f64::from(i));
     }
-    let faults = sided(&column).unwrap().1.faults();
+    let faults = sided(&column).unwrap().basis.faults();
     let message = super::parameter_fit::accept(&faults, &[]).unwrap_err();
     assert!(
         message.contains("the data do not determine b3."),
@@ -298,13 +290,9 @@ fn a_scene_reads_the_written_law() {
     let mut assembly = Assembly::build(&scene).unwrap();
     run_to_end(&mut assembly).unwrap();
 
-    let table = Table::from_csv(&file).unwrap();
-    let fits = UserTableFits::new(&table).unwrap();
-    let expected = |name: &str, x: f64| {
-        let curves = fits.curves(&table);
-        let curve = curves.iter().find(|curve| curve.name == name).unwrap();
-        (curve.law)(x)
-    };
+    let table = FitData::from_csv(&file).unwrap();
+    let fits = GroupFits::new(&table).unwrap();
+    let expected = |name: &str, x: f64| (fits.named(name).law)(x);
     let near = |got: f64, is: f64| assert!((got / is - 1.0).abs() < 1e-5, "{got} {is}");
     let specimen = Specimen::rod(75.0, None, rod);
     for point in twist(&specimen, &[-120.0, 60.0]).unwrap().points {

@@ -1,11 +1,13 @@
 //! Fits of B3(kappa) and xi(kappa).
 
-use super::column::{Column, Weight};
-use super::data::TwistData;
+use super::catalogue::Form;
+use super::column::Weight;
 use super::forms::Tanh;
+use super::groups::GroupFits;
 use super::parameter_fit::{Fault, ParameterFit};
-use super::search::{LawFit, STARTS, TANH, rooted, sided};
-use actin_cosserat::{PolynomialStretch, RootedStretch, SidedTwist, TanhTwist};
+use super::search::STARTS;
+use super::table::FitData;
+use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_fit::{Data, Fit, LinearFit, Polynomial, Starts};
 
 const DEGREE: u8 = 6;
@@ -24,20 +26,17 @@ const LAMBDA_BOUNDS: [(f64, f64); 7] = [
     (2e-3, 0.06),
 ];
 
-#[derive(Debug)]
 pub(crate) struct TwistFits {
     /// Polynomial with `p_0` to `p_6`.
     pub polynomial: LinearFit,
     /// Polynomial with `p_1` to `p_6`.
     pub without_offset: LinearFit,
-    /// `xi - 1` with two slopes.
-    pub rooted: LawFit<RootedStretch>,
     /// Published form of B3 with equal weights.
     pub tanh: ParameterFit,
     /// Published form of B3 with relative weights.
     pub tanh_relative: ParameterFit,
-    /// Separate saturation in both senses of twist, with relative weights.
-    pub sided: (SidedTwist, ParameterFit),
+    /// Smallest forms: separate saturation of B3 in both senses of twist, and `xi - 1` with two slopes.
+    pub smallest: GroupFits,
     /// Root mean square residual of the published `xi`, with and without its offset.
     pub published_xi_rms: [f64; 2],
     /// Root mean square residual of the published B3 (pN nm^2), and relative.
@@ -46,7 +45,7 @@ pub(crate) struct TwistFits {
 }
 
 impl TwistFits {
-    pub(crate) fn new(data: &TwistData) -> Result<Self, String> {
+    pub(crate) fn new(data: &FitData) -> Result<Self, String> {
         let (rigidity, length) = (&data.rigidity, &data.length);
         let of_xi = |e| format!("xi against twist: {e}");
         let of_b3 = |e| format!("B3 against twist: {e}");
@@ -58,7 +57,7 @@ impl TwistFits {
             let starts = Starts::at(extra).and_random(STARTS.0, STARTS.1);
             let limits = wide(published);
             ParameterFit::search(
-                &TANH,
+                Form::of("published form of B3"),
                 &Tanh { limits },
                 data,
                 LAMBDA_BOUNDS.to_vec(),
@@ -71,26 +70,23 @@ impl TwistFits {
             without_offset: Polynomial::without_constant(DEGREE)
                 .fit(&plain)
                 .map_err(of_xi)?,
-            rooted: rooted(length)?,
             tanh_relative: tanh(&relative, &tanh_fit.fit.parameters)?,
             tanh: tanh_fit,
-            sided: sided(rigidity)?,
+            smallest: GroupFits::new(data)?,
             published_xi_rms: [
                 PolynomialStretch::published(),
                 PolynomialStretch::published_without_offset(),
             ]
-            .map(|law| rms(length, |k| law.jet(k)[0], false)),
+            .map(|law| length.rms(|k| law.jet(k)[0], false)),
             published_b3_rms: [false, true]
-                .map(|relative| rms(rigidity, |k| wide(published).secant(k), relative)),
+                .map(|relative| rigidity.rms(|k| wide(published).secant(k), relative)),
             ranges: [rigidity.range(), length.range()],
         })
     }
 
     /// Parameters that are undetermined or at a bound.
     pub(super) fn faults(&self) -> Vec<Fault> {
-        let searches = [&self.tanh, &self.sided.1].into_iter();
-        let faults = searches.flat_map(ParameterFit::faults);
-        faults.chain(self.rooted.basis.faults()).collect()
+        [self.tanh.faults(), self.smallest.faults()].concat()
     }
 
     /// Standard error of coefficient `j` of the polynomial due to the rounding of the paper's rows.
@@ -135,15 +131,6 @@ fn wide(law: TanhTwist) -> TanhTwist {
     }
 }
 
-/// Root mean square of the differences, or relative differences, between `law` and a column.
-pub(crate) fn rms(column: &Column, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
-    let squares = column.pairs().map(|(k, value)| {
-        let scale = if relative { value } else { 1.0 };
-        ((law(k) - value) / scale).powi(2)
-    });
-    (squares.sum::<f64>() / column.value.len() as f64).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -153,7 +140,7 @@ mod tests {
     /// The published polynomial is the least-squares fit; the published `lambda` are not.
     #[test]
     fn paper_rows_give_the_published_polynomial_and_a_better_tanh() {
-        let data = TwistData::from_paper(false).unwrap();
+        let data = FitData::from_paper(false);
         let fits = TwistFits::new(&data).unwrap();
         assert!(
             fits.polynomial.goodness.rms <= 2.81e-4,
@@ -182,7 +169,7 @@ mod tests {
 
     #[test]
     fn derivatives_of_the_forms() {
-        let data = TwistData::from_paper(false).unwrap();
+        let data = FitData::from_paper(false);
         let data = data.rigidity.observed(Weight::Equal).unwrap();
         let range = 1.0;
         let checks: [(&dyn Model, &[f64]); 3] = [

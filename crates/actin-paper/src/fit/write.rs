@@ -1,8 +1,10 @@
 //! Output of the fits: laws as RON for scenes, curves and data as CSV.
 
 use super::bend::BendFits;
-use super::data::TwistData;
+use super::groups::GroupFits;
 use super::measured::{BendData, Point};
+use super::pictures::curve_with_data;
+use super::table::FitData;
 use super::twist::TwistFits;
 use actin_cosserat::{PolynomialStretch, TanhTwist, TwistStretch};
 use actin_draw::report::{save, write_csv};
@@ -15,9 +17,10 @@ const CURVE: i32 = 400;
 /// Writes `rod-law.ron`, the smallest forms, and `published-form.ron`, the refitted forms of the
 /// paper. Both are values of `law:` in a scene's `RodModel`.
 pub(super) fn laws(fits: &TwistFits, bend: Option<&BendFits>, out: &Path) -> Result<(), String> {
+    let twist = fits.smallest.laws.clone();
     let smallest = RodLaws {
-        twist: Some(TwistLaw::Sided(fits.sided.0)),
-        twist_stretch: Some(TwistStretch::Rooted(fits.rooted.law)),
+        twist: twist.twist,
+        twist_stretch: twist.twist_stretch,
         ..bend.map(BendFits::laws).unwrap_or_default()
     };
     law(&smallest, "rod-law.ron", out)?;
@@ -31,20 +34,35 @@ pub(super) fn laws(fits: &TwistFits, bend: Option<&BendFits>, out: &Path) -> Res
     law(&published, "published-form.ron", out)
 }
 
+/// Writes the laws of groups as RON, and each law with its data as CSV and SVG.
+pub(super) fn groups(fits: &GroupFits, out: &Path) -> Result<(), String> {
+    law(&fits.laws, "rod-law.ron", out)?;
+    for fit in &fits.fits {
+        let rows = fit.column.pairs().map(|(x, value)| {
+            let numbers = [x, value, (fit.law)(x)];
+            numbers.map(number).to_vec()
+        });
+        let header = [&*fit.group.x, &fit.group.value, "law"];
+        write_csv(out, &format!("{}.csv", fit.group.name), &header, rows)?;
+        curve_with_data(fit, out)?;
+    }
+    Ok(())
+}
+
 /// Writes a law in the format of scenes.
-pub(super) fn law(laws: &RodLaws, name: &str, out: &Path) -> Result<(), String> {
+fn law(laws: &RodLaws, name: &str, out: &Path) -> Result<(), String> {
     let head = "// A rod law for a scene: `rod: RodModel(law: ...)`. Written by fit-parameters.\n";
     save(out, name, &format!("{head}{}\n", laws.to_ron()))
 }
 
 /// Writes `curves.csv`: all forms over the range of the data.
-pub(super) fn curves(data: &TwistData, fits: &TwistFits, out: &Path) -> Result<(), String> {
+pub(super) fn curves(data: &FitData, fits: &TwistFits, out: &Path) -> Result<(), String> {
     let range = data.rigidity.range().max(data.length.range());
     let (tanh, relative) = (
         fits.tanh_law(&fits.tanh.fit),
         fits.tanh_law(&fits.tanh_relative.fit),
     );
-    let (sided, rooted) = (fits.sided.0, fits.rooted.law);
+    let [sided, rooted] = ["twist", "length"].map(|name| &fits.smallest.named(name).law);
     let polynomial = fits.polynomial_law(&fits.polynomial);
     let rows = (-CURVE..=CURVE).map(|i| {
         let k = range * f64::from(i) / f64::from(CURVE);
@@ -53,12 +71,12 @@ pub(super) fn curves(data: &TwistData, fits: &TwistFits, out: &Path) -> Result<(
             TanhTwist::published().secant(k),
             tanh.secant(k),
             relative.secant(k),
-            sided.secant(k),
+            sided(k),
             PolynomialStretch::published().extension(k),
             polynomial.extension(k),
-            rooted.jet(k)[0],
+            rooted(k),
         ]
-        .map(|x| format!("{x:.8e}"))
+        .map(number)
         .to_vec()
     });
     let header = [
@@ -74,9 +92,12 @@ pub(super) fn curves(data: &TwistData, fits: &TwistFits, out: &Path) -> Result<(
     write_csv(out, "curves.csv", &header, rows)
 }
 
+fn number(x: f64) -> String {
+    format!("{x:.8e}")
+}
+
 /// Writes `bend.csv` and `beams.csv`: measured values and the law.
 pub(super) fn bend_csv(data: &BendData, fits: &BendFits, out: &Path) -> Result<(), String> {
-    let number = |x: f64| format!("{x:.8e}");
     let bend = data.bend.iter().map(|p: &Point| {
         let law = fits.law.secant(p.x, 0.0);
         [p.x, p.mean, p.error, law].map(number).to_vec()

@@ -2,7 +2,8 @@
 //! before the first result.
 
 use super::filament::RISE_NM;
-use actin_sim::FreeTranslation;
+use actin_sim::{FreeTranslation, read_ron};
+use serde::Deserialize;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Case {
@@ -15,7 +16,7 @@ pub(super) struct Case {
 }
 
 /// Ways of loading.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq)]
 pub(super) enum Loading {
     /// Clamped at the start, turned (deg per 73.94 nm) or pulled (pN), then loaded with each force
     /// (pN). The force is axial if the far end slides along the axis, else transverse.
@@ -23,8 +24,11 @@ pub(super) enum Loading {
     /// Compared: displacement of the far end (nm) of a cantilever, displacement over force (nm/pN)
     /// if the end slides freely, secant stretching rigidity (pN) if it slides along the axis.
     Forces {
+        #[serde(default)]
         far_end: Option<FreeTranslation>,
+        #[serde(default)]
         turn_deg: f64,
+        #[serde(default)]
         tension_pn: f64,
         forces_pn: Vec<f64>,
     },
@@ -41,64 +45,37 @@ pub(super) enum Loading {
 /// Reference length of turns (nm): 27 rises, as in Tables 3 and 5.
 pub(super) const TURNED_NM: f64 = 27.0 * RISE_NM;
 
-/// Transverse forces and tensions of cantilevers of 160.2 nm (pN).
-const ACROSS_PN: [f64; 5] = [0.05, 0.2, 1.0, 2.0, 5.0];
+/// Forces of guided beams (pN).
 const SMALL_PN: [f64; 2] = [0.1, 0.5];
-const PULL_PN: [f64; 4] = [1.0, 5.0, 10.0, 40.0];
-/// Tensions of guided beams (pN), and spans with a bound (60, 90, 150 nm) and without (25, 30, 40
-/// nm).
-const GUIDED_PULL_PN: [f64; 3] = [0.0, 5.0, 10.0];
-const SPANS: [(Group, [f64; 3]); 2] = [
-    (Group::Guided, [22.0, 33.0, 55.0]),
-    (Group::Beside, [9.0, 11.0, 15.0]),
-];
-const BUCKLED_DEG: [f64; 4] = [180.0, -180.0, 270.0, -270.0];
-/// Turns (deg) of the rows of Tables 3 and 5.
-const TURNS_DEG: [f64; 10] = [
-    10.0, -10.0, 40.0, -40.0, 80.0, -80.0, 120.0, -120.0, 180.0, -180.0,
-];
-/// Axial forces (pN), and twists of stretched filaments (deg per 73.94 nm).
-const ALONG_PN: [f64; 3] = [2.0, 10.0, 40.0];
-const HELD_DEG: [f64; 3] = [0.0, 80.0, -80.0];
+
+#[derive(Deserialize)]
+struct LoadCases {
+    cases: Vec<ListedCase>,
+}
+
+/// Case of `data/load_cases.ron`.
+#[derive(Deserialize)]
+struct ListedCase {
+    group: Group,
+    name: String,
+    #[serde(default)]
+    rises: Option<f64>,
+    loading: Loading,
+    #[serde(default)]
+    quick: bool,
+}
 
 /// All cases, or a representative subset if `quick`.
 pub(super) fn all(quick: bool) -> Vec<Case> {
-    let cantilever = |group, pull: f64, forces: &[f64]| {
-        let name = format!("160 nm, tension {pull} pN");
-        Case::forces(group, name, 58.5, (None, pull, forces))
-    };
-    let mut all = vec![cantilever(Group::Cantilever, 0.0, &ACROSS_PN)];
-    all.extend(PULL_PN.map(|pull| cantilever(Group::PulledCantilever, pull, &SMALL_PN)));
-    for (group, spans) in SPANS {
-        for rises in spans {
-            all.extend(GUIDED_PULL_PN.map(|pull| Case::guided(group, rises, pull)));
-        }
-    }
-    all.extend([5, 6].map(|figure| {
-        let loading = Loading::Linked { figure };
-        Case::new(Group::Linked, format!("Figure {figure}"), f64::NAN, loading)
-    }));
-    all.extend(BUCKLED_DEG.map(|turn_deg| {
-        let name = format!("turned {turn_deg:+} deg");
-        Case::buckled(Group::Buckled, name, turn_deg)
-    }));
-    let turns_deg = TURNS_DEG.to_vec();
-    let twisted = Loading::Twisted { turns_deg };
-    all.push(Case::new(Group::Twisted, "74 nm", 27.0, twisted));
-    for turn_deg in HELD_DEG {
-        for (what, sign) in [("pulled", 1.0), ("pushed", -1.0)] {
-            let name = format!("74 nm, turned {turn_deg:+} deg, {what}");
-            let forces = ALONG_PN.map(|force| sign * force);
-            all.push(Case::stretched(
-                Group::Stretched,
-                name,
-                27.0,
-                (turn_deg, &forces),
-            ));
-        }
-    }
-    all.retain(|case| !quick || case.is_quick());
-    all
+    let listed: LoadCases = read_ron(include_str!("../../data/load_cases.ron"), "LoadCases")
+        .expect("`data/load_cases.ron` is well formed");
+    let chosen = listed.cases.into_iter().filter(|case| !quick || case.quick);
+    chosen
+        .map(|case| {
+            let rises = case.rises.unwrap_or(f64::NAN);
+            Case::new(case.group, case.name, rises, case.loading)
+        })
+        .collect()
 }
 
 impl Case {
@@ -158,24 +135,6 @@ impl Case {
         self.rises * RISE_NM
     }
 
-    fn is_quick(&self) -> bool {
-        match &self.loading {
-            Loading::Linked { figure } => *figure == 5,
-            Loading::Buckled { turn_deg } => (90.0..=180.0).contains(turn_deg),
-            Loading::Twisted { .. } => true,
-            Loading::Forces {
-                far_end,
-                turn_deg,
-                tension_pn,
-                ..
-            } => match far_end {
-                None => *tension_pn < 10.0,
-                Some(FreeTranslation::AlongAxis) => *turn_deg == 0.0,
-                Some(_) => (32.5..33.5).contains(&self.rises),
-            },
-        }
-    }
-
     /// Azimuths (deg) of the lattice for the mean filament and for one sampling. Axisymmetric cases
     /// have one azimuth.
     pub(super) fn azimuths_deg(&self, quick: bool) -> [Vec<f64>; 2] {
@@ -213,7 +172,7 @@ pub(super) fn azimuths_deg(count: u32) -> Vec<f64> {
     (0..count).map(|k| f64::from(k) * step).collect()
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Group {
     Cantilever,
     PulledCantilever,
@@ -227,10 +186,11 @@ pub(super) enum Group {
     /// Free filaments in a heat bath.
     Thermal,
     /// Reported without a bound.
+    #[default]
     Beside,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Bound {
     /// Relative difference.
     Relative(f64),
@@ -241,6 +201,7 @@ pub(super) enum Bound {
     /// Range over the mean.
     Spread(f64),
     /// No bound.
+    #[default]
     Open,
 }
 

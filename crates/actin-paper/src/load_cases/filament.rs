@@ -1,6 +1,7 @@
 //! Filaments of monomers, of a rod, or of both, and laws by their names in scenes.
 
-use actin_sim::{Filament, Monomers, RodLaw, RodModel, Scene, Section};
+use crate::run::{sections, segments};
+use actin_sim::{Filament, Monomers, RodLaw, RodModel, Scene};
 
 /// Rise per monomer (nm). Lengths are whole numbers of rises, so that they agree at all
 /// resolutions.
@@ -102,28 +103,8 @@ impl FilamentModel {
 
     /// A filament of this length (nm).
     pub(super) fn filament(&self, length_nm: f64) -> Filament {
-        let mut sections = Vec::new();
-        let mut at = 0.0;
-        for &[from, to] in self.rods.iter().chain(&[[length_nm, length_nm]]) {
-            let to = to.min(length_nm);
-            if from > at {
-                sections.push(Section::Ellipsoids {
-                    from_nm: at,
-                    to_nm: from,
-                    altered: None,
-                });
-            }
-            if to > from {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "a few hundred at most, and at least one"
-                )]
-                let segments = ((to - from) / self.segment_nm).round().max(1.0) as usize;
-                sections.push(Section::rod(from, to, Some(segments)));
-            }
-            at = to;
-        }
+        let segments = |rod_nm| Some(segments(rod_nm, self.segment_nm));
+        let sections = sections(length_nm, self.rods.iter().copied(), segments);
         Filament {
             rod: self.rod.clone(),
             monomers: self.monomers.clone(),
@@ -145,6 +126,7 @@ pub(super) fn law(name: &str) -> Result<RodLaw, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use actin_sim::Section;
 
     #[test]
     fn laws_are_those_of_scenes() {

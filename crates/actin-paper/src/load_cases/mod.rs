@@ -7,7 +7,6 @@ mod case;
 mod ends;
 mod filament;
 mod mixed;
-mod picture;
 mod quantities;
 mod row;
 mod solve;
@@ -82,7 +81,7 @@ pub fn run(options: &Options, tell: ProgressSink<'_>) -> Result<(), String> {
     write::csv(&options.out, &rows)?;
     let page = write::page(&rows);
     write::page_into(&options.out, &page)?;
-    picture::draw(&options.out, &rows)?;
+    write::picture(&options.out, &rows)?;
     if options.write {
         write::page_into(&crate::workspace_root().join("docs/tables"), &page)?;
     }

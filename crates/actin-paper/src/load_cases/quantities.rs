@@ -3,7 +3,7 @@
 use super::case::{self, Bound, Group};
 use super::filament;
 use super::row::Row;
-use super::{CaseExtent, monomers, of_law, picture};
+use super::{CaseExtent, monomers, of_law, write};
 use actin_draw::report::{self, Origin};
 use std::path::Path;
 
@@ -28,7 +28,7 @@ pub(crate) fn compared(
         only_coarse: true,
     };
     let rows = of_law(&(name.to_owned(), law), &cases, &monomers, effort);
-    picture::draw(out, &rows)?;
+    write::picture(out, &rows)?;
     let mut all: Vec<ComparedQuantity> = rows.iter().filter_map(of_row).collect();
     let unsolved = (rows.len() - all.len()) as f64;
     let note = "quantities of cases in which the rod has no equilibrium";

@@ -4,7 +4,7 @@ use super::case::{Bound, Group};
 use super::solve::CaseSolution;
 use crate::measure::SampleStatistics;
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Row {
     pub group: Group,
     pub case: String,
@@ -54,17 +54,8 @@ impl Row {
             case: case.to_owned(),
             quantity: quantity.to_owned(),
             law: law.to_owned(),
-            mean: None,
-            drawn: None,
-            rod: None,
-            fine: None,
-            rod_of_drawn: None,
-            error_mean: None,
-            error_drawn: None,
-            error_fine: None,
-            scatter: None,
             bound: group.bound(quantity),
-            note: String::new(),
+            ..Self::default()
         }
     }
 

@@ -4,13 +4,10 @@ use super::case::{Case, Loading, TURNED_NM};
 use super::filament::FilamentModel;
 use crate::centre_line::CentreLine;
 use crate::measure::{Evidence, Specimen, far_end_shift, follow, reaction, twist};
-use crate::run::{SolvedScene, clamp, free, scenario};
+use crate::run::{SolvedScene, clamp, end_force, free, scenario, shift, stage, turn};
 use actin_mechanics::{State, Vector3};
 use actin_sim::shape::Ribbon;
-use actin_sim::{
-    Assembly, End, Equilibrium, FreeTranslation, Hold, Load, Part, Scene, Setting, Stage, Task,
-    TimeCourse,
-};
+use actin_sim::{Assembly, End, Equilibrium, FreeTranslation, Hold, Part, Scene, Setting, Task};
 use serde::{Deserialize, Serialize};
 
 /// Initial rotations of a free filament about its axis (deg).
@@ -74,22 +71,6 @@ pub(super) fn solve(case: &Case, made: &FilamentModel) -> Result<CaseSolution, S
     }
 }
 
-fn turn(end: End, turn_deg: f64) -> Setting {
-    Setting::Turn {
-        filament: 0,
-        end,
-        turn_deg: [0.0, 0.0, turn_deg],
-    }
-}
-
-fn stage(set: impl Into<Vec<Setting>>) -> Stage {
-    Stage {
-        set: set.into(),
-        duration_ns: None,
-        pace: TimeCourse::Smooth,
-    }
-}
-
 /// Settings of a path that tries each stage in one step.
 fn solver(made: &FilamentModel) -> Equilibrium {
     let mut solver = Equilibrium {
@@ -118,7 +99,7 @@ pub(super) fn scene(case: &Case, made: &FilamentModel) -> (Scene, usize) {
     let mut before = Vec::new();
     if *turn_deg != 0.0 {
         let turn_deg = turn_deg * case.length_nm() / TURNED_NM;
-        before.push(turn(End::End, turn_deg));
+        before.push(turn(End::End, [0.0, 0.0, turn_deg]));
     }
     // Unit forces on the end; the last one is scaled to each value.
     let is_along = *far_end == Some(FreeTranslation::AlongAxis);
@@ -133,14 +114,9 @@ pub(super) fn scene(case: &Case, made: &FilamentModel) -> (Scene, usize) {
     let path = before.into_iter().chain(forces);
     let mut clamps = vec![clamp(End::Start, FreeTranslation::Nowhere)];
     clamps.extend(far_end.map(|slides| clamp(End::End, slides)));
-    let load = |force_pn| Load::EndForce {
-        filament: 0,
-        end: End::End,
-        force_pn,
-    };
     let scene = Scene {
         clamps,
-        loads: directions.into_iter().map(load).collect(),
+        loads: directions.into_iter().map(end_force).collect(),
         path: path.map(|setting| stage([setting])).collect(),
         task: Task::Equilibrium(solver(made)),
         ..free("Load case", made.filament(case.length_nm()))
@@ -266,14 +242,10 @@ fn buckled(length_nm: f64, turn_deg: f64, made: &FilamentModel) -> Result<CaseSo
     for linker in &mut scene.linkers {
         linker.at_nm = 0.5 * length_nm;
     }
-    let pushed = |end, by: f64| Setting::Shift {
-        filament: 0,
-        end,
-        shift_nm: [0.0, 0.0, by],
-    };
+    let turned = |end, turn_deg: f64| turn(end, [0.0, 0.0, turn_deg]);
     let stages = [
-        stage([turn(End::Start, -turn_deg), turn(End::End, turn_deg)]),
-        stage([pushed(End::Start, PUSHED_NM), pushed(End::End, -PUSHED_NM)]),
+        stage([turned(End::Start, -turn_deg), turned(End::End, turn_deg)]),
+        stage([shift(End::Start, PUSHED_NM), shift(End::End, -PUSHED_NM)]),
     ];
     let mut failures = Vec::new();
     let mut lowest: Option<(f64, CaseSolution)> = None;
@@ -330,7 +302,7 @@ fn elastic(assembly: &Assembly) -> f64 {
 mod tests {
     use super::*;
     use crate::load_cases::case::Group;
-    use actin_sim::RodLaw;
+    use actin_sim::{Load, RodLaw};
 
     /// A case of tension 0 has no axial load. A tension of 5 pN scales a unit load by 5.
     #[test]

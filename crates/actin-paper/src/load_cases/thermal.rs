@@ -39,8 +39,7 @@ pub(super) fn rows(name: &str, law: &RodLaw, quick: bool) -> Vec<Row> {
         let known = |[mean, error]: [f64; 2]| SampleStatistics {
             mean,
             error,
-            deviation: f64::NAN,
-            count: 1,
+            ..SampleStatistics::from_values([mean])
         };
         let rod = measured.as_ref().map(|both| both[i]);
         let value = rod.ok().map(|(value, _)| value);

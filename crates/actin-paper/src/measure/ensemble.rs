@@ -2,45 +2,8 @@
 
 use super::sweep::Curve;
 use super::{MeasureError, Specimen};
+use crate::statistics::SampleStatistics;
 use rayon::prelude::*;
-
-/// Mean and scatter of a quantity over specimens.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SampleStatistics {
-    /// Arithmetic mean; NaN without values.
-    pub mean: f64,
-    /// Standard deviation of a single value, `sqrt(sum (x - mean)^2 / (n - 1))`; NaN for fewer than
-    /// two values.
-    pub deviation: f64,
-    /// Standard error of the mean of independent values, `deviation / sqrt(n)`.
-    pub error: f64,
-    /// Number of values.
-    pub count: usize,
-}
-
-impl SampleStatistics {
-    /// Computes mean and scatter of `values`.
-    ///
-    /// ```
-    /// let sampled = actin_paper::measure::SampleStatistics::from_values([1.0, 3.0]);
-    /// assert_eq!((sampled.mean, sampled.count), (2.0, 2));
-    /// assert!((sampled.deviation - 2.0_f64.sqrt()).abs() < 1e-15 && sampled.error == 1.0);
-    /// ```
-    pub fn from_values(values: impl IntoIterator<Item = f64>) -> Self {
-        let values: Vec<f64> = values.into_iter().collect();
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
-        // The quotient is 0 / 0 for one value and 0 / -1 for none, where the mean is NaN.
-        let deviation = (squares / (n - 1.0)).sqrt();
-        Self {
-            mean,
-            deviation,
-            error: deviation / n.sqrt(),
-            count: values.len(),
-        }
-    }
-}
 
 /// Measures specimens that differ only in the seed of their bonds, in parallel. Results are in the
 /// order of the seeds.

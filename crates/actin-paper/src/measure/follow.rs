@@ -2,7 +2,7 @@
 
 use super::MeasureError;
 use actin_equilibrium::{
-    Certificate, Jumps, Newton, Path, PathEnd, PathFailure, PathOptions, Saddles, Stability,
+    Certificate, Jumps, Path, PathEnd, PathFailure, PathOptions, Saddles, Stability,
 };
 use actin_mechanics::State;
 use actin_sim::Assembly;
@@ -62,10 +62,22 @@ pub(crate) fn follow(scene: &Scene) -> Result<EquilibriumPath, MeasureError> {
     let mut stops = Vec::new();
     let mut ended = None;
     for stage in 0..assembly.drive.stages() {
-        match advance(&assembly, &path, &mut newton, &mut state, stage) {
-            Ok(evidence) => stops.push(PathPoint {
+        let (mut saddles_left, mut jumps) = (0, 0);
+        let end = path.follow(
+            &mut newton,
+            &mut state,
+            assembly.system.interactions(),
+            &mut |state, t| assembly.drive.place(state, stage as f64 + t),
+            &mut |point| {
+                saddles_left += point.equilibrium.saddles_left;
+                jumps += usize::from(point.jumped);
+                ControlFlow::Continue(())
+            },
+        );
+        match end {
+            Ok(end) => stops.push(PathPoint {
                 state: state.clone(),
-                evidence,
+                evidence: evidence(&end, saddles_left, jumps),
             }),
             Err(failure) => {
                 ended = Some(failure);
@@ -98,29 +110,6 @@ fn path(settings: &Settings) -> Result<Path, MeasureError> {
         ..PathOptions::default()
     };
     Ok(Path::new(options)?)
-}
-
-/// Follows one stage; `state` becomes its last equilibrium.
-fn advance(
-    assembly: &Assembly,
-    path: &Path,
-    newton: &mut Newton,
-    state: &mut State,
-    stage: usize,
-) -> Result<Evidence, Box<PathFailure>> {
-    let (mut saddles_left, mut jumps) = (0, 0);
-    let end = path.follow(
-        newton,
-        state,
-        assembly.system.interactions(),
-        &mut |state, t| assembly.drive.place(state, stage as f64 + t),
-        &mut |point| {
-            saddles_left += point.equilibrium.saddles_left;
-            jumps += usize::from(point.jumped);
-            ControlFlow::Continue(())
-        },
-    );
-    Ok(evidence(&end?, saddles_left, jumps))
 }
 
 fn evidence(end: &PathEnd, saddles_left: usize, jumps: usize) -> Evidence {

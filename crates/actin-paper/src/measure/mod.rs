@@ -33,39 +33,36 @@
 //! assert!((curve.points[1].torque_pn_nm - 1.3e4 * 3.14159265 / 75.0).abs() < 1e-4);
 //! ```
 
-mod bend;
-mod couples;
+mod axial;
 mod elastica;
 mod ensemble;
 mod error;
 mod follow;
 mod rotations;
-mod shear;
 mod specimen;
-mod stretch;
 mod sweep;
-mod tension;
-mod twist;
-mod twisted;
+mod transverse;
 
+pub use crate::statistics::SampleStatistics;
 pub use actin_equilibrium::{Certificate, Stability};
-pub use bend::{TipForcePoint, bend_by_tip_force};
-pub use couples::{CouplePoint, bend_by_couples};
+pub use axial::{
+    PulledTwistPoint, StretchPoint, TwistPoint, free_turn_under_tension, stretch_by_force,
+    stretch_by_shift, twist, twist_under_tension,
+};
 pub use elastica::elastica_deflection;
-pub use ensemble::{SampleStatistics, over_samplings, over_samplings_and_azimuths, sampled_by};
+pub use ensemble::{over_samplings, over_samplings_and_azimuths, sampled_by};
 pub use error::MeasureError;
 pub use follow::Evidence;
 pub(crate) use follow::follow;
 pub(crate) use rotations::{ROOM_PN_NM, far_lengths, turns_in_bath};
 pub use rotations::{RotationCorrelations, jackknife, steps_in};
-pub use shear::{ShearPoint, shear_by_force};
 pub use specimen::Specimen;
-pub use stretch::{StretchPoint, stretch_by_force, stretch_by_shift};
 pub use sweep::{Curve, MissingEquilibrium};
 pub(crate) use sweep::{far_end_shift, reaction};
-pub use tension::{PulledTwistPoint, free_turn_under_tension, twist_under_tension};
-pub use twist::{TwistPoint, twist};
-pub use twisted::{HelixPoint, PulledBendPoint, bend_twisted, bend_under_tension};
+pub use transverse::{
+    CouplePoint, HelixPoint, PulledBendPoint, ShearPoint, TipForcePoint, bend_by_couples,
+    bend_by_tip_force, bend_twisted, bend_under_tension, shear_by_force,
+};
 
 #[cfg(test)]
 mod tests;

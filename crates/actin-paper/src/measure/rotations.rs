@@ -4,12 +4,10 @@
 //! is the tilt of the axis, `phi` the rotation about it, `lp` the persistence length and `C` the
 //! twisting rigidity. The mean `<phi>` is not zero, since heat untwists filaments.
 
-use crate::run::free;
+use crate::run::{drag, free};
 use actin_integrate::{Bath, Composition, Drag, advance_in, largest_frequency, stable_step};
 use actin_mechanics::{State, UnitQuaternion, rotation};
-use actin_sim::{
-    Assembly, BOLTZMANN_PN_NM_PER_K, DragModel, DragRates, Dynamics, Filament, Task, Thermal,
-};
+use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Dynamics, Filament, Task, Thermal};
 
 const ROOM_K: f64 = 298.0;
 /// Thermal energy at 298 K (pN nm).
@@ -114,10 +112,7 @@ pub(crate) fn turns_in_bath(
 /// Motion in a heat bath at 298 K, which selects the law of rods.
 fn heated(seed: u64) -> Dynamics {
     Dynamics {
-        drag: DragModel::Rates(DragRates {
-            translational_per_ns: DRAG,
-            rotational_per_ns: DRAG,
-        }),
+        drag: drag([DRAG; 2]),
         thermal: Some(Thermal {
             temperature_k: ROOM_K,
             seed,

@@ -37,11 +37,7 @@ impl Specimen {
 
     /// A filament of monomers; its length is rounded to whole monomers.
     pub fn ellipsoids(length_nm: f64, monomers: Monomers) -> Self {
-        let section = Section::Ellipsoids {
-            from_nm: 0.0,
-            to_nm: length_nm,
-            altered: None,
-        };
+        let section = crate::run::monomers(0.0, length_nm);
         Self::from_section(section, monomers, RodModel::default())
     }
 

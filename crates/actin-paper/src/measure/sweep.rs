@@ -1,10 +1,10 @@
 //! Curves over values of both signs, with one path from rest for each sign.
 
-use super::MeasureError;
 use super::follow::{PathPoint, follow};
+use super::{MeasureError, Specimen};
+use crate::run::{end_force, stage};
 use actin_mechanics::{Loads, State, Vector3};
-use actin_sim::{Assembly, Reaction};
-use actin_sim::{End, Scene};
+use actin_sim::{Assembly, End, FreeTranslation, Reaction, Scene, Setting, Stage};
 
 /// Points of a protocol, in ascending order of the prescribed value or in the requested order.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,75 +26,96 @@ pub struct MissingEquilibrium {
     pub reason: String,
 }
 
-/// Measures at all `values` along one path for each sign, in order of magnitude.
-///
-/// `scene` makes the scene with one stage per value; `read` reads a point from a stop.
-pub(super) fn sweep<P>(
-    name: &'static str,
-    values: &[f64],
-    scene: impl Fn(&[f64]) -> Scene,
-    read: impl Fn(&Assembly, f64, &PathPoint) -> P,
-) -> Result<Curve<P>, MeasureError> {
-    check(name, values)?;
-    let sorted = |positive: bool| {
-        let mut chosen: Vec<f64> = values.to_vec();
-        chosen.retain(|value| (*value > 0.0) == positive);
-        chosen.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-        chosen
-    };
-    let mut curve: Option<Curve<P>> = None;
-    for positive in [false, true] {
-        let values = sorted(positive);
-        if values.is_empty() {
-            continue;
-        }
-        let mut next = leg(&values, &scene, &read)?;
-        if !positive {
-            next.points.reverse();
-        }
-        match &mut curve {
-            None => curve = Some(next),
-            Some(curve) => {
-                curve.points.append(&mut next.points);
-                curve.unreached.append(&mut next.unreached);
+/// Ends and load of a protocol.
+pub(super) struct Protocol<'a> {
+    pub specimen: &'a Specimen,
+    pub title: &'static str,
+    /// Translation of the clamped far end; `None` for a free end.
+    pub far_end: Option<FreeTranslation>,
+    /// Direction of load 0, a force of 1 pN on the far end that a setting scales.
+    pub force: Option<Vector3>,
+}
+
+impl Protocol<'_> {
+    fn scene(&self, path: Vec<Stage>) -> Scene {
+        let loads = self.force.map(end_force).into_iter().collect();
+        self.specimen.scene(self.title, self.far_end, loads, path)
+    }
+
+    /// Resolved length of the specimen (nm), which can differ from the requested length.
+    pub(super) fn length_nm(&self) -> Result<f64, MeasureError> {
+        Ok(Assembly::build(&self.scene(Vec::new()))?.length_nm())
+    }
+
+    /// Measures at all values along one path for each sign, in order of magnitude.
+    ///
+    /// `settings` gives the controls of a value; `read` reads a point from a stop.
+    pub(super) fn sweep<P>(
+        &self,
+        name: &'static str,
+        values: &[f64],
+        settings: impl Fn(f64) -> Vec<Setting>,
+        read: impl Fn(&Assembly, f64, &PathPoint) -> P,
+    ) -> Result<Curve<P>, MeasureError> {
+        check(name, values)?;
+        let (mut positive, mut negative): (Vec<f64>, Vec<f64>) =
+            values.iter().partition(|value| **value > 0.0);
+        let mut curve: Option<Curve<P>> = None;
+        for values in [&mut negative, &mut positive] {
+            if values.is_empty() {
+                continue;
+            }
+            values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+            let mut next = self.along(values, &settings, &read)?;
+            if values[0] < 0.0 {
+                next.points.reverse();
+            }
+            match &mut curve {
+                None => curve = Some(next),
+                Some(curve) => curve.append(next),
             }
         }
+        Ok(curve.expect("there is a value, and it is not zero"))
     }
-    Ok(curve.expect("there is a value, and it is not zero"))
+
+    /// Measures at `values` along one path, in the given order.
+    pub(super) fn along<P>(
+        &self,
+        values: &[f64],
+        settings: impl Fn(f64) -> Vec<Setting>,
+        read: impl Fn(&Assembly, f64, &PathPoint) -> P,
+    ) -> Result<Curve<P>, MeasureError> {
+        let path = values.iter().map(|&value| stage(settings(value)));
+        let course = follow(&self.scene(path.collect()))?;
+        let stops = values.iter().zip(&course.stops);
+        let reason = course.ended.map(|ended| ended.to_string());
+        let missing = values[course.stops.len()..].iter();
+        Ok(Curve {
+            length_nm: course.assembly.length_nm(),
+            points: stops
+                .map(|(&value, stop)| read(&course.assembly, value, stop))
+                .collect(),
+            unreached: missing
+                .map(|&value| MissingEquilibrium {
+                    value,
+                    reason: reason.clone().unwrap_or_default(),
+                })
+                .collect(),
+        })
+    }
 }
 
-/// Measures at `values` along one path, in the given order.
-pub(super) fn in_order<P>(
-    name: &'static str,
-    values: &[f64],
-    scene: impl Fn(&[f64]) -> Scene,
-    read: impl Fn(&Assembly, f64, &PathPoint) -> P,
-) -> Result<Curve<P>, MeasureError> {
-    check(name, values)?;
-    leg(values, &scene, &read)
+impl<P> Curve<P> {
+    /// Appends the points and unreached values of a curve of the same specimen.
+    pub(super) fn append(&mut self, mut next: Self) {
+        self.points.append(&mut next.points);
+        self.unreached.append(&mut next.unreached);
+    }
 }
 
-fn leg<P>(
-    values: &[f64],
-    scene: &impl Fn(&[f64]) -> Scene,
-    read: &impl Fn(&Assembly, f64, &PathPoint) -> P,
-) -> Result<Curve<P>, MeasureError> {
-    let course = follow(&scene(values))?;
-    let stops = values.iter().zip(&course.stops);
-    let reason = course.ended.map(|ended| ended.to_string());
-    let missing = values[course.stops.len()..].iter();
-    Ok(Curve {
-        length_nm: course.assembly.length_nm(),
-        points: stops
-            .map(|(&value, stop)| read(&course.assembly, value, stop))
-            .collect(),
-        unreached: missing
-            .map(|&value| MissingEquilibrium {
-                value,
-                reason: reason.clone().unwrap_or_default(),
-            })
-            .collect(),
-    })
+/// Setting of the force of a protocol (pN).
+pub(super) fn force(factor: f64) -> Setting {
+    Setting::LoadFactor { load: 0, factor }
 }
 
 pub(super) fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureError> {

@@ -1,9 +1,9 @@
 //! Scene of one buckled filament: composition, clamps, rotation and compression of the ends.
 
-use super::{Figure, LENGTH_NM};
-use crate::figures::model::{Model, Resolution, monomers};
-use crate::run::scenario;
-use actin_sim::{Hold, Scene, Section, Setting, Stage, Task, TimeCourse};
+use super::{LENGTH_NM, file};
+use crate::figures::model::{Model, Resolution};
+use crate::run::{scenario, sections};
+use actin_sim::{Hold, Scene, Setting, Stage, Task, TimeCourse};
 
 /// Length between the inner clamped monomers of a filament without rod (nm). It corresponds to rods of [`LENGTH_NM`]
 /// with clamped nodes and frames, because a clamped frame lies half a segment inside.
@@ -28,10 +28,9 @@ pub(super) struct Start {
     pub small_steps: bool,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Case {
-    pub figure: &'static Figure,
-    pub model: Model,
+    pub model: &'static Model,
     pub resolution: Resolution,
     /// Rotation of each end, in opposite directions (deg). Positive values are over-twist.
     pub turn_deg: i32,
@@ -39,14 +38,6 @@ pub(super) struct Case {
     pub start: Start,
     /// True for turns with all starts, whose rows include the other stable states.
     pub is_started: bool,
-}
-
-impl PartialEq for Case {
-    fn eq(&self, other: &Self) -> bool {
-        (self.figure.id, self.model.name) == (other.figure.id, other.model.name)
-            && (self.resolution, self.turn_deg) == (other.resolution, other.turn_deg)
-            && (self.seed, self.start) == (other.seed, other.start)
-    }
 }
 
 impl Start {
@@ -120,16 +111,15 @@ impl Case {
     /// True if other stable states are searched: first sampling of filaments in the pictures at turns with all starts,
     /// and filaments without rod in Figure 8 only.
     fn has_states(&self) -> bool {
-        let is_shown = self.model == self.figure.models[0];
-        let is_new = self.resolution != Resolution::Ellipsoids || self.figure.id == "fig8";
+        let is_new = self.resolution != Resolution::Ellipsoids || self.model.figure == "fig8";
         let is_first = self.seed == 0 && self.start == Start::DEFAULT;
-        self.is_started && is_shown && is_new && is_first
+        self.is_started && self.model.is_shown() && is_new && is_first
     }
 
     pub(super) fn scene(&self) -> Result<Scene, String> {
-        let mut scene = scenario(self.figure.file)?;
+        let mut scene = scenario(&file(&self.model.figure))?;
         scene.title = self.name();
-        scene.filament.sections = self.sections().into();
+        scene.filament.sections = sections(self.length_nm(), self.rods(), |_| None).into();
         self.model.apply(&mut scene, self.seed);
         let hold = match self.resolution {
             Resolution::Ellipsoids => Hold::Wall,
@@ -161,17 +151,13 @@ impl Case {
         }
     }
 
-    fn sections(&self) -> Vec<Section> {
-        let rod = |from_nm, to_nm| Section::rod(from_nm, to_nm, None);
+    /// Arc lengths of rods (nm).
+    fn rods(&self) -> Vec<[f64; 2]> {
         let (length, half) = (self.length_nm(), 0.5 * self.rod_nm());
         match self.resolution {
-            Resolution::Rod => vec![rod(0.0, length)],
-            Resolution::Ellipsoids => vec![monomers(0.0, length)],
-            Resolution::Mixed(_) => vec![
-                rod(0.0, half),
-                monomers(half, length - half),
-                rod(length - half, length),
-            ],
+            Resolution::Rod => vec![[0.0, length]],
+            Resolution::Ellipsoids => Vec::new(),
+            Resolution::Mixed(_) => vec![[0.0, half], [length - half, length]],
         }
     }
 
@@ -197,12 +183,12 @@ impl Case {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{FIGURE_8, Plan};
+    use super::super::Plan;
     use super::*;
 
     #[test]
     fn turns_and_orders_are_applied() {
-        let plan = Plan::new(&FIGURE_8, false);
+        let plan = Plan::figure8(false);
         let turns = |turn_deg, order| -> Vec<f64> {
             let case = plan.case(plan.shown(), Resolution::Mixed(140), turn_deg, 0);
             let start = Start {

@@ -12,9 +12,9 @@ mod solve;
 mod starts;
 
 use super::draft::Draft;
-use super::model::{Model, Resolution, Rods};
-use crate::statistics::{Sample, sample};
-use actin_sim::{ForceLaw, Hold, JunctionWeight};
+use super::model::{Model, Resolution, models};
+use super::texts::Values;
+use crate::statistics::{SampleStatistics, distinct, sample};
 use case::{Case, Start};
 use solve::{BuckledState, Motion, Outcome};
 
@@ -22,120 +22,25 @@ const LENGTH_NM: f64 = 300.0;
 /// Lengths of rod (nm) in the paper and with `--quick`. Each end has half of the rod.
 const RODS: [u32; 7] = [240, 207, 173, 140, 107, 73, 40];
 const QUICK_RODS: [u32; 3] = [240, 140, 40];
+
+/// All resolutions, from the rod to the filament of monomers.
+fn resolutions(quick: bool) -> Vec<Resolution> {
+    let rods: &[u32] = if quick { &QUICK_RODS } else { &RODS };
+    let mixed = rods.iter().map(|&rod| Resolution::Mixed(rod));
+    let all = [Resolution::Rod].into_iter().chain(mixed);
+    all.chain([Resolution::Ellipsoids]).collect()
+}
+
 /// Largest turn (deg) with the balance as printed. Larger turns have many states.
 const FEW_STATES_DEG: i32 = 270;
 
-#[derive(Debug)]
-struct Figure {
-    id: &'static str,
-    /// Scene file in `scenarios`.
-    file: &'static str,
-    /// Name of the rod law in captions.
-    rods: &'static str,
-    /// Models; the figure shows the first one.
-    models: &'static [Model],
-    /// Turns of the ends (deg).
-    turns: &'static [i32],
-    /// Samplings of the bonds, by default and with `--quick`.
-    seeds: [u64; 2],
-    /// Starts of the shown model, and turns (deg) with all starts, by default and with `--quick`.
-    starts: [fn() -> Vec<Start>; 2],
-    started: [&'static [i32]; 2],
-}
-
-const SHOWN_8: Model = Model {
-    hold: Hold::TwoNodesAndFrame,
-    ..Model::STANDARD
-};
-const SHOWN_10: Model = Model {
-    rods: Rods::Extended,
-    hold: Hold::NodeAndFrame,
-    ..Model::STANDARD
-};
-const MEAN_8: Model = mean(SHOWN_8);
-const MEAN_10: Model = mean(SHOWN_10);
-
-const fn mean(model: Model) -> Model {
-    Model {
-        name: "mean-filament/",
-        words: "mean filament",
-        is_mean: true,
-        ..model
-    }
-}
-
-const fn wall(model: Model) -> Model {
-    Model {
-        name: "wall/",
-        words: "clamp Wall",
-        hold: Hold::Wall,
-        ..model
-    }
-}
-
-const FULL: Model = Model {
-    name: "full/",
-    words: "junction as printed",
-    junction: JunctionWeight::Full,
-    ..SHOWN_8
-};
-const CONSTANT: Model = Model {
-    name: "standard/",
-    words: "constant rigidities",
-    rods: Rods::Constant,
-    ..SHOWN_10
-};
-const COUPLING: Model = Model {
-    name: "coupling-energy/",
-    words: "C3 energy",
-    rods: Rods::CouplingEnergy,
-    ..SHOWN_10
-};
-/// Extended rod with the balance of forces and torques as printed, which has no energy.
-const AS_PRINTED: Model = Model {
-    name: "paper-balance/",
-    words: "balance as printed",
-    balance: ForceLaw::PaperBalance,
-    ..MEAN_10
-};
-
-static FIGURE_8: Figure = Figure {
-    id: "fig8",
-    file: "figure-8/rod-140.ron",
-    rods: "rods of constant rigidities",
-    models: &[SHOWN_8, MEAN_8, wall(SHOWN_8), FULL],
-    turns: &[180, -180],
-    seeds: [8, 2],
-    starts: [Start::all, Start::orders],
-    started: [&[180, -180], &[180, -180]],
-};
-
-static FIGURE_10: Figure = Figure {
-    id: "fig10",
-    file: "figure-10/rod-140.ron",
-    rods: "rods with the published B3(kappa) and xi(kappa)",
-    models: &[
-        SHOWN_10,
-        MEAN_10,
-        wall(SHOWN_10),
-        CONSTANT,
-        COUPLING,
-        AS_PRINTED,
-    ],
-    turns: &[180, -180, 270, -270, 360, -360],
-    seeds: [4, 1],
-    starts: [Start::all, Start::all],
-    started: [&[360, -360], &[360]],
-};
-
 pub(super) fn figure8(draft: &mut Draft<'_>) -> Result<(), String> {
-    reproduce(&Plan::new(&FIGURE_8, draft.quick), draft)
+    reproduce(&Plan::figure8(draft.quick), draft)
 }
 
 /// Figure 10: rods with the published twist extensions.
 pub(super) fn figure10(draft: &mut Draft<'_>) -> Result<(), String> {
-    let plan = Plan::new(&FIGURE_10, draft.quick);
-    reproduce(&plan, draft)?;
+    reproduce(&Plan::figure10(draft.quick), draft)?;
     if draft.quick {
         return Ok(());
     }
@@ -151,15 +56,12 @@ fn reproduce(plan: &Plan, draft: &mut Draft<'_>) -> Result<(), String> {
     let outcomes = draft.solve(&plan.cases(), solve::outcome).into_iter();
     results.outcomes = outcomes.filter_map(|r| r.map_err(&mut keep).ok()).collect();
     results.failures = failures;
-    draft.settings = format!(
-        "Scene scenarios/{} and variants: {} equilibria at the end of paths, {} samplings of the \
-         bonds, seeds from 0, and the mean filament, which has no seed; twist first unless named. Rods are 300 nm \
-         long; filaments of monomers 290 nm between the inner clamped monomers, 300 nm with the clamp Wall. A force of \
-         1e-3 pN at half the length, towards a point at a distance of 100 nm, breaks the symmetry.",
-        plan.figure.file,
-        results.outcomes.len(),
-        plan.seeds,
-    );
+    let values: Values<'_> = &[
+        ("file", &file(plan.id)),
+        ("count", &results.outcomes.len()),
+        ("seeds", &plan.seeds),
+    ];
+    draft.describe("buckling", values)?;
     rows::rows(plan, draft, &results);
     starts::rows(plan, draft, &results);
     rows::motions(plan, draft, &results);
@@ -167,47 +69,73 @@ fn reproduce(plan: &Plan, draft: &mut Draft<'_>) -> Result<(), String> {
     pictures::draw(plan, draft, &results)
 }
 
-/// Resolutions, samplings and starts of one run.
+/// Scene file of a figure in `scenarios`.
+fn file(figure: &str) -> String {
+    format!("{}/rod-140.ron", figure.replace("fig", "figure-"))
+}
+
+/// Cases of one run.
 #[derive(Clone, Debug)]
 struct Plan {
-    figure: &'static Figure,
-    models: Vec<Model>,
+    id: &'static str,
+    /// Name of the rod law in captions.
+    rods: &'static str,
+    models: Vec<&'static Model>,
     resolutions: Vec<Resolution>,
+    /// Turns of the ends (deg).
+    turns: &'static [i32],
+    /// Samplings of the bonds.
     seeds: u64,
-    /// Starts of the shown model, and turns with all starts.
+    /// Starts of the shown model, and turns (deg) with all starts.
     starts: Vec<Start>,
     started: &'static [i32],
     quick: bool,
 }
 
 impl Plan {
-    fn new(figure: &'static Figure, quick: bool) -> Self {
-        let rods: &[u32] = if quick { &QUICK_RODS } else { &RODS };
-        let mixed = rods.iter().map(|&rod| Resolution::Mixed(rod));
-        let all = [Resolution::Rod].into_iter().chain(mixed);
-        let k = usize::from(quick);
-        let models = figure.models.iter().copied();
+    fn figure8(quick: bool) -> Self {
         Self {
-            figure,
-            models: models.filter(|m| !quick || *m != AS_PRINTED).collect(),
-            resolutions: all.chain([Resolution::Ellipsoids]).collect(),
-            seeds: figure.seeds[k],
-            starts: (figure.starts[k])(),
-            started: figure.started[k],
+            id: "fig8",
+            rods: "rods of constant rigidities",
+            models: models("fig8", quick),
+            resolutions: resolutions(quick),
+            turns: &[180, -180],
+            seeds: if quick { 2 } else { 8 },
+            starts: if quick { Start::orders() } else { Start::all() },
+            started: &[180, -180],
+            quick,
+        }
+    }
+
+    fn figure10(quick: bool) -> Self {
+        Self {
+            id: "fig10",
+            rods: "rods with the published B3(kappa) and xi(kappa)",
+            models: models("fig10", quick),
+            resolutions: resolutions(quick),
+            turns: &[180, -180, 270, -270, 360, -360],
+            seeds: if quick { 1 } else { 4 },
+            starts: Start::all(),
+            started: if quick { &[360] } else { &[360, -360] },
             quick,
         }
     }
 
     /// Model shown in the figure.
-    fn shown(&self) -> Model {
-        self.figure.models[0]
+    fn shown(&self) -> &'static Model {
+        self.models[0]
     }
 
-    fn case(&self, model: Model, resolution: Resolution, turn_deg: i32, seed: u64) -> Case {
+    fn case(
+        &self,
+        model: &'static Model,
+        resolution: Resolution,
+        turn_deg: i32,
+        seed: u64,
+    ) -> Case {
         let is_drawn = !model.is_mean && resolution != Resolution::Rod;
         Case {
-            figure: self.figure,
-            model: model.solved_as(self.figure.models, resolution),
+            model: model.solved_at(resolution),
             resolution,
             turn_deg,
             seed: if is_drawn { seed } else { 0 },
@@ -216,13 +144,19 @@ impl Plan {
         }
     }
 
-    fn turns_of(&self, model: Model) -> impl Iterator<Item = i32> {
-        let most = if model == AS_PRINTED {
-            FEW_STATES_DEG
-        } else {
+    /// Cases of the shown model at a turn, for the first sampling.
+    fn shown_at(&self, turn_deg: i32) -> impl Iterator<Item = Case> {
+        let resolutions = self.resolutions.iter();
+        resolutions.map(move |&r| self.case(self.shown(), r, turn_deg, 0))
+    }
+
+    fn turns_of(&self, model: &Model) -> impl Iterator<Item = i32> {
+        let most = if model.has_potential() {
             i32::MAX
+        } else {
+            FEW_STATES_DEG
         };
-        let turns = self.figure.turns.iter().copied();
+        let turns = self.turns.iter().copied();
         turns.filter(move |turn| turn.abs() <= most)
     }
 
@@ -252,20 +186,13 @@ impl Plan {
                 }
             }
         }
-        for &turn in self.figure.turns {
-            for &resolution in &self.resolutions {
-                let case = self.case(self.shown(), resolution, turn, 0);
+        for &turn in self.turns {
+            for case in self.shown_at(turn) {
                 let starts = self.starts_at(turn).into_iter();
                 all.extend(starts.map(|start| Case { start, ..case }));
             }
         }
-        let mut unique: Vec<Case> = Vec::with_capacity(all.len());
-        for case in all {
-            if !unique.contains(&case) {
-                unique.push(case);
-            }
-        }
-        unique
+        distinct(all)
     }
 }
 
@@ -281,6 +208,13 @@ impl Results {
         self.outcomes.iter().find(|outcome| outcome.case == case)
     }
 
+    /// Outcomes of a case from all starts at its turn.
+    fn of_all_starts(&self, plan: &Plan, case: Case) -> Vec<&Outcome> {
+        let starts = plan.starts_at(case.turn_deg).into_iter();
+        let outcomes = starts.filter_map(|start| self.of(Case { start, ..case }));
+        outcomes.collect()
+    }
+
     /// Outcomes of all samplings of a case.
     fn samplings(&self, case: Case) -> impl Iterator<Item = &Outcome> {
         self.outcomes.iter().filter(move |outcome| {
@@ -290,7 +224,7 @@ impl Results {
     }
 
     /// Statistics of an observable over samplings; `None` without outcomes.
-    fn sample(&self, case: Case, of: fn(&BuckledState) -> f64) -> Option<Sample> {
+    fn sample(&self, case: Case, of: fn(&BuckledState) -> f64) -> Option<SampleStatistics> {
         let sample = sample(self.samplings(case).map(|o| of(&o.measured)));
         (sample.count > 0).then_some(sample)
     }
@@ -313,20 +247,18 @@ mod tests {
     /// The mean filament affects all resolutions except the rod, the junction only the seven mixed ones.
     #[test]
     fn models_add_only_affected_filaments() {
-        let [eight, ten] = [&FIGURE_8, &FIGURE_10].map(|figure| Plan::new(figure, false));
+        let [eight, ten] = [Plan::figure8(false), Plan::figure10(false)];
         for plan in [&eight, &ten] {
             assert!(plan.seeds >= 3 && plan.starts.len() >= 6);
             assert_eq!(plan.resolutions.len(), 9);
         }
-        let count = |plan: &Plan, model: Model| {
-            plan.cases()
-                .iter()
-                .filter(|case| case.model == model)
-                .count()
+        let count = |plan: &Plan, model: &str| {
+            let cases = plan.cases().into_iter();
+            cases.filter(|case| case.model.name == model).count()
         };
-        assert_eq!(count(&eight, MEAN_8), 2 * 8);
-        assert_eq!(count(&eight, FULL), 2 * 7 * 8);
-        assert_eq!(count(&ten, AS_PRINTED), 4 * 8);
-        assert_eq!(count(&Plan::new(&FIGURE_10, true), AS_PRINTED), 0);
+        assert_eq!(count(&eight, "mean-filament/"), 2 * 8);
+        assert_eq!(count(&eight, "full/"), 2 * 7 * 8);
+        assert_eq!(count(&ten, "paper-balance/"), 4 * 8);
+        assert_eq!(count(&Plan::figure10(true), "paper-balance/"), 0);
     }
 }

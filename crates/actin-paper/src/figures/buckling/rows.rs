@@ -1,11 +1,11 @@
 //! Rows and tables of Figures 8 and 10.
 
-use super::case::{Case, turn_name};
+use super::case::turn_name;
 use super::solve::{Motion, Outcome, STOP};
 use super::starts::is_same;
-use super::{CONSTANT, OBSERVABLES, Observable, Plan, Results};
+use super::{OBSERVABLES, Observable, Plan, Results};
 use crate::figures::draft::{Column, Draft, number};
-use crate::figures::expected::Bound;
+use crate::figures::expected::Holds;
 use crate::figures::model::{Model, Resolution};
 use crate::statistics::{largest, sample};
 
@@ -21,21 +21,16 @@ pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
             }
         }
     }
-    if plan.models.contains(&CONSTANT) {
-        improvements(plan, draft);
-    }
-    for &turn in plan.figure.turns {
-        for &resolution in &plan.resolutions {
-            let case = plan.case(plan.shown(), resolution, turn, 0);
-            let Some(found) = results.of(case) else {
-                continue;
-            };
+    improvements(plan, draft);
+    for &turn in plan.turns {
+        for found in plan.shown_at(turn).filter_map(|case| results.of(case)) {
             let m = &found.measured;
             let note = format!(
                 "of the smoothed centre line, seed 0; twist {:.4}, link {:.4} turns",
                 m.twist_turns, m.link_turns
             );
-            draft.row(format!("writhe/{}", case.path()), "", m.writhe, note);
+            let quantity = format!("writhe/{}", found.case.path());
+            draft.row(quantity, "", m.writhe, note);
         }
     }
     checks(draft, results);
@@ -47,7 +42,7 @@ fn values(
     plan: &Plan,
     draft: &mut Draft<'_>,
     results: &Results,
-    (model, turn): (Model, i32),
+    (model, turn): (&'static Model, i32),
     (name, unit, of): Observable,
 ) {
     let mut means: Vec<(Resolution, f64)> = Vec::new();
@@ -58,16 +53,12 @@ fn values(
         };
         let scatter = match s.count {
             1 => "one filament".into(),
-            count => format!("{count} samplings, sd {:.3}", s.sd),
+            count => format!("{count} samplings, sd {:.3}", s.sd()),
         };
         let found: Vec<&Outcome> = results.samplings(case).collect();
         let quantity = format!("{}{name}/{}", model.name, case.path());
-        draft.row(
-            quantity,
-            unit,
-            s.mean,
-            format!("{scatter}; {}", found_by(&found)),
-        );
+        let note = format!("{scatter}; {}", found_by(&found));
+        draft.row(quantity, unit, s.mean, note);
         means.push((resolution, s.mean));
     }
     if means.is_empty() {
@@ -108,7 +99,7 @@ fn found_by(outcomes: &[&Outcome]) -> String {
 
 /// Claims that the extensions reduce the spread over resolutions.
 fn improvements(plan: &Plan, draft: &mut Draft<'_>) {
-    for &turn_deg in plan.figure.turns {
+    for &turn_deg in plan.turns {
         let turn = turn_name(turn_deg);
         for model in EXTENDED {
             for name in ["height", "couple"] {
@@ -121,11 +112,8 @@ fn improvements(plan: &Plan, draft: &mut Draft<'_>) {
                     "the extended rod improves the agreement between resolutions; ratio of the spread of the {name} \
                      to the spread with constant rigidities, {extended:.3} over {constant:.3}"
                 );
-                let bound = if turn_deg.abs() > JUDGED_DEG {
-                    Bound::None
-                } else {
-                    Bound::AtMost(1.0)
-                };
+                let is_judged = turn_deg.abs() <= JUDGED_DEG;
+                let bound = is_judged.then_some((Holds::AtMost, 1.0));
                 let quantity = format!("{name}_improves/{model}{turn}");
                 draft.claim(&quantity, extended / constant, bound, statement);
             }
@@ -182,32 +170,22 @@ pub(super) fn motions(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
         );
         for (name, unit, of) in OBSERVABLES {
             let value = of(&end.measured) - of(&nearest.measured);
-            draft.row(
-                format!("dynamics_difference/{name}/{path}"),
-                unit,
-                value,
-                &*note,
-            );
+            let quantity = format!("dynamics_difference/{name}/{path}");
+            draft.row(quantity, unit, value, &*note);
         }
-        let starts = plan.starts_at(end.case.turn_deg).into_iter();
-        let found = starts.filter_map(|start| results.of(Case { start, ..end.case }));
-        let found: Vec<&Outcome> = found.collect();
+        let found = results.of_all_starts(plan, end.case);
         let same = found.iter().filter(|o| is_same(o, nearest)).count();
         let note = format!(
             "of {} starts of Newton's method that reach the equilibrium of the damped motion",
             found.len()
         );
-        draft.row(
-            format!("dynamics_same_as_statics/{path}"),
-            "",
-            same as f64,
-            note,
-        );
+        let quantity = format!("dynamics_same_as_statics/{path}");
+        draft.row(quantity, "", same as f64, note);
     }
 }
 
 const COLUMNS: [Column<Outcome>; 23] = [
-    ("variant", |o| variant(&o.case)),
+    ("variant", |o| o.case.model.label("shown")),
     ("turn_deg", |o| o.case.turn_deg.to_string()),
     ("case", |o| o.case.resolution.name()),
     ("rod_nm", |o| number(o.case.rod_nm())),
@@ -245,7 +223,7 @@ pub(super) fn tables(draft: &Draft<'_>, results: &Results) -> Result<(), String>
     let lines = drawn.map(|o| {
         let case = &o.case;
         let names = [
-            variant(case),
+            case.model.label("shown"),
             case.turn_deg.to_string(),
             case.resolution.name(),
             case.start.name(),
@@ -256,11 +234,4 @@ pub(super) fn tables(draft: &Draft<'_>, results: &Results) -> Result<(), String>
         "variant", "turn_deg", "case", "start", "x_nm", "y_nm", "z_nm",
     ];
     draft.curves(&format!("{id}_centre_lines.csv"), &header, lines)
-}
-
-fn variant(case: &Case) -> String {
-    match case.model.name {
-        "" => "shown".into(),
-        name => name.trim_end_matches('/').into(),
-    }
 }

@@ -1,13 +1,12 @@
 //! Equilibria, damped motions and observables of a case.
 
 use super::case::Case;
-use crate::figures::model::Model;
-use crate::run::SolvedScene;
+use crate::run::{SolvedScene, drag};
 use actin_mechanics::State;
 use actin_sim::shape::Ribbon;
 use actin_sim::{
-    Assembly, DragRates, Dynamics, End, Equilibrium, ForceLaw, Integrator, Part, StableStates,
-    StopTolerances, Task,
+    Assembly, Dynamics, End, Equilibrium, ForceLaw, Integrator, Part, StableStates, StopTolerances,
+    Task,
 };
 use actin_view::Pose;
 
@@ -90,9 +89,10 @@ impl Outcome {
 }
 
 pub(super) fn outcome(case: &Case) -> Result<Outcome, String> {
-    let found = match case.model.balance {
-        ForceLaw::EnergyGradient => case.scene().and_then(|scene| SolvedScene::new(&scene)),
-        ForceLaw::PaperBalance => rest(case),
+    let found = if case.model.has_potential() {
+        case.scene().and_then(|scene| SolvedScene::new(&scene))
+    } else {
+        rest(case)
     };
     found
         .map(|solved| measured(case, solved))
@@ -127,15 +127,9 @@ fn moved(case: &Case) -> Result<Motion, String> {
 /// Such loads feed energy into rotations. With a rotational drag rate of 0.3 per ns, 10 of 32 filaments diverge and 4
 /// do not come to rest. Rotational drag has little effect on bending, because moments of inertia are small.
 fn rest(case: &Case) -> Result<SolvedScene, String> {
-    let with_energy = Model {
-        balance: ForceLaw::EnergyGradient,
-        ..case.model
-    };
-    let from = Case {
-        model: with_energy,
-        ..*case
-    };
-    let from = SolvedScene::new(&from.scene()?)?;
+    let mut scene = case.scene()?;
+    scene.filament.rod.force_law = ForceLaw::EnergyGradient;
+    let from = SolvedScene::new(&scene)?;
     let mut scene = case.scene()?;
     scene.path.clear();
     scene.task = Task::Dynamics(damped(1000.0, [1.0, 30.0]));
@@ -151,15 +145,11 @@ fn rest(case: &Case) -> Result<SolvedScene, String> {
 }
 
 /// Damped dynamics of at most `duration_ns`, with translational and rotational drag rates (1/ns).
-fn damped(duration_ns: f64, [translational_per_ns, rotational_per_ns]: [f64; 2]) -> Dynamics {
-    let drag = DragRates {
-        translational_per_ns,
-        rotational_per_ns,
-    };
+fn damped(duration_ns: f64, rates_per_ns: [f64; 2]) -> Dynamics {
     Dynamics {
         integrator: Integrator::PositionVerlet,
         step_safety: 0.9,
-        drag: drag.into(),
+        drag: drag(rates_per_ns),
         thermal: None,
         stop: Some(StopTolerances {
             force_pn: STOP,

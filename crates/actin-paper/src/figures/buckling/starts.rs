@@ -11,13 +11,12 @@ use crate::statistics::largest;
 const SAME: (f64, f64, f64) = (0.1, 0.03, 0.3);
 
 pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
-    for &turn in plan.figure.turns {
+    for &turn in plan.turns {
         order_differences(plan, draft, results, turn);
         if !plan.started.contains(&turn) {
             continue;
         }
-        for &resolution in &plan.resolutions {
-            let case = plan.case(plan.shown(), resolution, turn, 0);
+        for case in plan.shown_at(turn) {
             distinct_row(plan, draft, results, case);
             lowest_row(draft, results, case);
         }
@@ -25,11 +24,7 @@ pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
 }
 
 fn order_differences(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) {
-    let cases = plan
-        .resolutions
-        .iter()
-        .map(|&r| plan.case(plan.shown(), r, turn, 0));
-    let pairs = cases.filter_map(|case| {
+    let pairs = plan.shown_at(turn).filter_map(|case| {
         let start = Start::COMPRESSION_FIRST;
         Some((results.of(case)?, results.of(Case { start, ..case })?))
     });
@@ -50,19 +45,13 @@ fn order_differences(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn
             each.join(", ")
         );
         let value = largest(pairs.iter().map(|pair| difference(pair).abs()));
-        draft.row(
-            format!("order_difference/{name}/{}", turn_name(turn)),
-            unit,
-            value,
-            note,
-        );
+        let quantity = format!("order_difference/{name}/{}", turn_name(turn));
+        draft.row(quantity, unit, value, note);
     }
 }
 
 fn distinct_row(plan: &Plan, draft: &mut Draft<'_>, results: &Results, case: Case) {
-    let starts = plan.starts_at(case.turn_deg).into_iter();
-    let outcomes = starts.filter_map(|start| results.of(Case { start, ..case }));
-    let outcomes: Vec<&Outcome> = outcomes.collect();
+    let outcomes = results.of_all_starts(plan, case);
     let distinct = distinct(&outcomes);
     let Some(first) = distinct.first() else {
         return;
@@ -86,12 +75,8 @@ fn distinct_row(plan: &Plan, draft: &mut Draft<'_>, results: &Results, case: Cas
         each.join("; "),
         first[0].case.start.name()
     );
-    draft.row(
-        format!("distinct_equilibria/{}", case.path()),
-        "",
-        distinct.len() as f64,
-        note,
-    );
+    let quantity = format!("distinct_equilibria/{}", case.path());
+    draft.row(quantity, "", distinct.len() as f64, note);
 }
 
 fn lowest_row(draft: &mut Draft<'_>, results: &Results, case: Case) {

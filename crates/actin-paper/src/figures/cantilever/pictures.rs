@@ -1,33 +1,11 @@
 //! Pictures of Figure 4.
 
-use super::{
-    AS_PRINTED, Case, FULL, LENGTH_NM, MEAN, MODELS, Outcome, SHARED, STIFF, STIFF_MEAN, WEAK,
-    WEAK_MEAN,
-};
-use crate::figures::charts::{Curve, Filament, Side, against_rod, draw_from};
+use super::{Case, LENGTH_NM, Outcome};
+use crate::figures::charts::{Filament, against_rod, project};
 use crate::figures::draft::Draft;
-use crate::figures::model::{Model, Resolution};
-use crate::palette;
-use actin_draw::Colour;
-use actin_view::Attitude;
-
-const X_LABEL: &str = "x (nm); the force pulls towards -x";
-const SIDES: [Side; 2] = [
-    Side {
-        panel: "side",
-        title: "Side view",
-        labels: ["z along the unloaded filament (nm)", X_LABEL],
-        project: |p| (p[2], p[0]),
-        equal_axes: true,
-    },
-    Side {
-        panel: "end",
-        title: "End view",
-        labels: ["y (nm)", X_LABEL],
-        project: |p| (p[1], p[0]),
-        equal_axes: true,
-    },
-];
+use crate::figures::model::{Resolution, models};
+use crate::figures::texts::{ChartText, Values};
+use actin_draw::{Mark, Series};
 
 fn drawn(outcomes: &[Outcome], is_chosen: impl Fn(&Case) -> bool) -> Vec<&Outcome> {
     let chosen = outcomes
@@ -38,136 +16,102 @@ fn drawn(outcomes: &[Outcome], is_chosen: impl Fn(&Case) -> bool) -> Vec<&Outcom
     drawn
 }
 
+/// Model, its mean filament if that is drawn, and part of the name of files.
+const PANELS: [(&str, Option<&str>, &str); 4] = [
+    ("", Some("mean-filament/"), "2_pN_shared"),
+    ("full/", None, "2_pN_full"),
+    ("0.5-pN/", Some("0.5-pN/mean-filament/"), "0.5_pN_shared"),
+    (
+        "preceding-paper/",
+        Some("preceding-paper/mean-filament/"),
+        "preceding_paper",
+    ),
+];
+
 /// Draws four models, with the mean filament if it was computed.
 pub(super) fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
-    for (model, mean, name) in [
-        (SHARED, Some(MEAN), "2_pN_shared"),
-        (FULL, None, "2_pN_full"),
-        (WEAK, Some(WEAK_MEAN), "0.5_pN_shared"),
-        (STIFF, Some(STIFF_MEAN), "preceding_paper"),
-    ] {
-        let mut chosen = drawn(outcomes, |case| case.model == model);
+    for (model, mean, name) in PANELS {
+        let is_mean = |case: &Case| Some(&*case.model.name) == mean;
+        let mut chosen = drawn(outcomes, |case| case.model.name == model);
+        let words = &chosen[0].case.model.words;
         chosen.extend(drawn(outcomes, |case| {
-            Some(case.model) == mean && case.resolution == Resolution::Ellipsoids
+            is_mean(case) && case.resolution == Resolution::Ellipsoids
         }));
-        let filaments = chosen.iter();
-        let filaments = filaments.map(|o| o.filament(Some(o.case.model) == mean));
+        let filaments = chosen.iter().map(|o| o.filament(is_mean(&o.case)));
         let filaments: Vec<Filament> = filaments.collect();
         let dashed = mean.map_or(
             "",
             |_| " Dashed: the mean filament (monomers with quadrature bonds).",
         );
-        let file = format!("fig4_{name}");
-        views(draft, &file, (model.words, dashed), &filaments)?;
+        let values: Values<'_> = &[("model", words), ("dashed", &dashed)];
+        for view in ["side", "end"] {
+            let texts = ChartText::new(&format!("fig4_{view}"), values)?;
+            let file = format!("fig4_{name}_{view}.svg");
+            project(draft, file, &texts, &filaments, &[])?;
+        }
         if chosen[0].is_moved {
             let curves = filaments.iter().zip(&chosen);
             let series = curves.map(|(f, o)| f.curve(o.energy.clone()));
-            draft.plot(
-                format!("{file}_energy.svg"),
-                &format!("Energy, {}", model.words),
-                ["time (ns)", "elastic and kinetic energy (pN nm)"],
-                series.collect(),
-                format!("Elastic and kinetic energy during the damped motion.{dashed}"),
-            )?;
+            let texts = ChartText::new("fig4_energy", values)?;
+            draft.plot(format!("fig4_{name}_energy.svg"), &texts, series.collect())?;
         }
-    }
-    Ok(())
-}
-
-fn views(
-    draft: &mut Draft<'_>,
-    file: &str,
-    (words, dashed): (&str, &str),
-    filaments: &[Filament],
-) -> Result<(), String> {
-    let captions = [
-        format!(
-            "Equilibria, {words}. Lines: nodes of the rod and centre line of the monomers; dots: monomer \
-             centres. {}{dashed}",
-            palette::chosen().ends()
-        ),
-        format!("Equilibria seen along the unloaded filament.{dashed}"),
-    ];
-    for (side, caption) in SIDES.iter().zip(captions) {
-        let title = format!("{}, {words}", side.title);
-        draw_from(draft, file, (side, &title), filaments, Vec::new(), caption)?;
     }
     Ok(())
 }
 
 impl Outcome {
+    fn share(&self) -> f64 {
+        self.case.rod_nm() / LENGTH_NM
+    }
+
     fn filament(&self, is_mean: bool) -> Filament {
         if is_mean {
             return Filament::mean("mean filament", &self.shape);
         }
-        let share = self.case.rod_nm() / LENGTH_NM;
-        Filament::new(self.case.resolution.name(), share, &self.shape)
+        Filament::new(self.case.resolution.name(), self.share(), &self.shape)
     }
 }
 
 type Value = fn(&Outcome) -> f64;
 
-/// Curve of a model against the length of rod, without points if the model was not computed.
-fn curve(outcomes: &[Outcome], model: Model, colour: Colour, value: Value) -> Curve {
-    let is_computed = outcomes.iter().any(|o| o.case.model == model);
-    let own = drawn(outcomes, |case| {
-        is_computed && case.model == model.solved_as(&MODELS, case.resolution)
-    });
-    Curve {
-        name: model.words.into(),
-        colour,
-        // This curve coincides with the curve of `FULL`.
-        is_dashed: model == AS_PRINTED,
-        points: own.iter().map(|o| (o.case.rod_nm(), value(o))).collect(),
-    }
-}
-
+/// Draws tips and energies of four models against the length of rod.
 pub(super) fn against_resolution(
     draft: &mut Draft<'_>,
     outcomes: &[Outcome],
 ) -> Result<(), String> {
-    let charts: [(&str, &str, Value); 2] = [
-        ("tips", "deflection of the tip along the force (nm)", |o| {
-            o.tip_drop_nm
-        }),
-        ("energies", "elastic energy at equilibrium (pN nm)", |o| {
-            o.elastic_pn_nm
-        }),
-    ];
-    for (name, y_label, value) in charts {
-        let curves = [
-            (SHARED, palette::line(0)),
-            (FULL, palette::line(1)),
-            (AS_PRINTED, palette::line(3)),
-            (MEAN, palette::DATA),
-        ];
-        let curves = curves.map(|(model, colour)| curve(outcomes, model, colour, value));
-        let caption = format!(
-            "The {y_label} against the length of rod, from monomers only at 0 to rod only at 160 nm; first sampling \
-             of the bonds, and the mean filament (black)."
-        );
-        draft.plot(
-            format!("fig4_{name}.svg"),
-            "Equilibria under 2 pN against resolution",
-            ["rod at the tip (nm)", y_label],
-            against_rod(curves.into()),
-            caption,
-        )?;
+    let tip: Value = |o| o.tip_drop_nm;
+    let energy: Value = |o| o.elastic_pn_nm;
+    for (name, quantity, value) in [
+        ("tips", "deflection of the tip along the force (nm)", tip),
+        ("energies", "elastic energy at equilibrium (pN nm)", energy),
+    ] {
+        let models = models("fig4", draft.quick);
+        let named = ["", "full/", "paper-balance/", "mean-filament/"].into_iter();
+        let drawn_models = named.filter_map(|name| models.iter().find(|m| m.name == name));
+        let curves = drawn_models.map(|model| {
+            let own = drawn(outcomes, |case| {
+                case.model == model.solved_at(case.resolution)
+            });
+            let points = own.iter().map(|o| (o.case.rod_nm(), value(o)));
+            let curve = model.curve(points.collect());
+            // The curve of the printed balance coincides with the curve of the junction as printed.
+            let mark = if model.has_potential() {
+                Mark::Line
+            } else {
+                Mark::Dashes
+            };
+            Series { mark, ..curve }
+        });
+        let texts = ChartText::new("fig4_resolution", &[("quantity", &quantity)])?;
+        draft.plot(format!("fig4_{name}.svg"), &texts, against_rod(curves))?;
     }
     Ok(())
 }
 
 pub(super) fn view(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
     let shown = drawn(outcomes, |_| true).into_iter().map(|o| {
-        let share = o.case.rod_nm() / LENGTH_NM;
-        (
-            o.case.model.words.into(),
-            o.case.resolution.name(),
-            share,
-            o.shape.pose.clone(),
-        )
+        let (group, name) = (o.case.model.words.clone(), o.case.resolution.name());
+        (group, name, o.share(), o.shape.pose.clone())
     });
-    let caption = "Final states of the damped motions: monomers with their semi-axes and \
-        orientations, rod with a stripe along its first axis. The force acts at the tip.";
-    draft.view("fig4", Attitude::HORIZONTAL, shown, caption)
+    draft.view("fig4", "fig4", shown)
 }

@@ -1,16 +1,17 @@
 //! Rows and tables of Figures 5 and 6.
 
+use super::Figure;
 use super::solve::{Balance, Motion, Outcome, SAME_PN_NM};
-use super::{Case, FULL, Figure, MODELS, STANDARD};
 use crate::figures::draft::{Column, Draft, number, residuals};
-use crate::figures::expected::Bound;
-use crate::figures::model::Model;
+use crate::figures::expected::Holds;
+use crate::figures::model::{Model, models};
 use crate::figures::motion::energy_decays;
-use crate::statistics::{Sample, largest, sample};
+use crate::figures::texts::Values;
+use crate::statistics::{SampleStatistics, largest, sample};
 
 #[derive(Debug)]
 struct Spread {
-    energy: Sample,
+    energy: SampleStatistics,
     /// Largest distance between two centre lines at equal arc length (nm), and description of its location.
     node: f64,
     farthest: String,
@@ -22,7 +23,7 @@ type Pick = fn(&Spread) -> f64;
 
 impl Spread {
     /// Spread of one model and seed over the mixed resolutions, with the pure ones if `with_pure`.
-    fn new(outcomes: &[Outcome], model: Model, seed: u64, with_pure: bool) -> Self {
+    fn new(outcomes: &[Outcome], model: &Model, seed: u64, with_pure: bool) -> Self {
         let own = outcomes
             .iter()
             .filter(|o| o.case.model == model && o.case.seed == seed);
@@ -41,7 +42,7 @@ impl Spread {
         }
     }
 
-    fn over_seeds(outcomes: &[Outcome], model: Model) -> Vec<Self> {
+    fn over_seeds(outcomes: &[Outcome], model: &Model) -> Vec<Self> {
         let seeds = 0..model.seeds(seeds(outcomes));
         seeds
             .map(|seed| Self::new(outcomes, model, seed, false))
@@ -72,7 +73,7 @@ fn seeds(outcomes: &[Outcome]) -> u64 {
 }
 
 pub(super) fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
-    for model in MODELS {
+    for model in models("linkers", false) {
         spreads(draft, outcomes, model);
     }
     with_pure(draft, outcomes);
@@ -94,9 +95,9 @@ pub(super) fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     motions(draft, outcomes);
 }
 
-fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
+fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: &Model) {
     let all = Spread::over_seeds(outcomes, model);
-    let (first, words) = (&all[0], model.words);
+    let (first, words) = (&all[0], &model.words);
     let picks: [(&str, &str, Pick, String); 3] = [
         (
             "energy_spread",
@@ -128,7 +129,8 @@ fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
             let s = sample(all.iter().map(pick));
             let note = format!(
                 "{} samplings of the bonds, sd {:.4}; {words}",
-                s.count, s.sd
+                s.count,
+                s.sd()
             );
             draft.row(format!("{quantity}/mean"), unit, s.mean, note);
         }
@@ -136,7 +138,7 @@ fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
 }
 
 fn with_pure(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
-    let all = Spread::new(outcomes, STANDARD, 0, true);
+    let all = Spread::new(outcomes, outcomes[0].case.model, 0, true);
     let note = format!("pure rod and pure monomers included; {}", all.energies());
     draft.row("energy_spread/with-pure", "", all.energy.spread(), note);
     let note = format!("between {}", all.farthest);
@@ -179,29 +181,20 @@ fn motions(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     if count == 0 {
         return;
     }
-    let energies =
-        moved(outcomes).map(|(_, m)| (m.energy[m.energy.len() - 1][1] - m.limit.energy).abs());
+    let above = |m: &Motion| m.energy[m.energy.len() - 1][1] - m.limit.energy;
+    let difference = largest(moved(outcomes).map(|(_, m)| above(m).abs()));
     let unfinished = moved(outcomes).filter(|(_, m)| !m.has_converged).count();
     let note = format!(
         "largest difference between the end of damped dynamics and the certified equilibrium that Newton's \
          method reaches from there, {count} motions; {unfinished} ended at the time limit, all others by the stop rule"
     );
-    draft.row(
-        "newton_difference/energy",
-        "pN nm",
-        largest(energies),
-        &*note,
-    );
+    draft.row("newton_difference/energy", "pN nm", difference, &*note);
     let nodes = moved(outcomes).map(|(_, m)| m.from_limit_nm);
     draft.row("newton_difference/node", "nm", largest(nodes), note);
     let elsewhere = moved(outcomes).filter(|(o, m)| m.limit.energy > o.lowest.energy + SAME_PN_NM);
+    let elsewhere = elsewhere.count() as f64;
     let note = format!("of {count} motions: motions that do not end in the lowest equilibrium");
-    draft.row(
-        "motions_to_a_higher_equilibrium",
-        "",
-        elsewhere.count() as f64,
-        note,
-    );
+    draft.row("motions_to_a_higher_equilibrium", "", elsewhere, note);
     let energies = moved(outcomes).map(|(_, m)| m.energy.iter().map(|e| e[1]).collect());
     energy_decays(draft, &energies.collect::<Vec<_>>());
 }
@@ -224,43 +217,45 @@ pub(super) fn larger_claims(draft: &mut Draft<'_>, figures: [&[Outcome]; 2]) {
             |s| s.energy.spread(),
         ),
     ];
-    for model in MODELS {
+    for model in models("linkers", false) {
         let spreads = figures.map(|outcomes| Spread::over_seeds(outcomes, model));
         for (name, words, pick) in claims {
             let [here, there] = [&spreads[0], &spreads[1]].map(|s| sample(s.iter().map(pick)));
             let statement = format!(
                 "{words} than in Figure 5. Means over {} samplings: {:.4} (sd {:.4}) here, {:.4} (sd {:.4}) there; {}",
-                here.count, here.mean, here.sd, there.mean, there.sd, model.words
+                here.count,
+                here.mean,
+                here.sd(),
+                there.mean,
+                there.sd(),
+                model.words
             );
-            let is_judged = [STANDARD, FULL].contains(&model) && name != "energy_spread";
-            let bound = if is_judged {
-                Bound::AtLeast(1.0)
-            } else {
-                Bound::None
-            };
+            let is_judged = ["", "/full"].contains(&&*model.name) && name != "energy_spread";
+            let bound = is_judged.then_some((Holds::AtLeast, 1.0));
             let quantity = format!("{name}_over_fig5{}", model.name);
             draft.claim(&quantity, here.mean / there.mean, bound, statement);
         }
     }
 }
 
-pub(super) fn settings(figure: &Figure, outcomes: &[Outcome]) -> String {
-    format!(
-        "Scene scenarios/{} with the named length of rod in the middle, {} filaments, {} samplings of the bonds \
-         (seeds from 0; 0 unless named; the mean filament has quadrature bonds and no seed). Equilibria by \
-         Newton's method from the built filament, rotated by 0, 90, 180 and 270 deg about its axis, where {}; the \
-         lowest is used. Motions: anchors displaced from the sites at the start, drag 0.3 per ns for velocities and \
-         angular momenta.",
-        figure.file,
-        outcomes.len(),
-        seeds(outcomes),
-        residuals(outcomes.iter().map(|o| o.lowest.residual)),
-    )
+pub(super) fn settings(
+    figure: &Figure,
+    draft: &mut Draft<'_>,
+    outcomes: &[Outcome],
+) -> Result<(), String> {
+    let residuals = residuals(outcomes.iter().map(|o| o.lowest.residual));
+    let values: Values<'_> = &[
+        ("file", &figure.file),
+        ("count", &outcomes.len()),
+        ("seeds", &seeds(outcomes)),
+        ("residuals", &residuals),
+    ];
+    draft.describe("linkers", values)
 }
 
 const COLUMNS: [Column<Outcome>; 13] = [
     ("case", |o| o.case.resolution.name()),
-    ("variant", |o| variant(&o.case)),
+    ("variant", |o| o.case.model.label("standard")),
     ("seed", |o| o.case.seed.to_string()),
     ("energy_pn_nm", |o| number(o.lowest.energy)),
     ("linkers_pn_nm", |o| number(o.lowest.linkers)),
@@ -297,7 +292,11 @@ pub(super) fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), Stri
         let points = line.arc_lengths().iter().zip(line.points());
         let case = &o.case;
         (
-            vec![case.resolution.name(), variant(case), case.seed.to_string()],
+            vec![
+                case.resolution.name(),
+                case.model.label("standard"),
+                case.seed.to_string(),
+            ],
             points.map(|(s, [x, y, z])| [*s, *x, *y, *z]).collect(),
         )
     });
@@ -306,11 +305,4 @@ pub(super) fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), Stri
     let energies = moved(outcomes).map(|(o, m)| (vec![o.case.resolution.name()], m.energy.clone()));
     let header = ["case", "time_ns", "total_pn_nm", "potential_pn_nm"];
     draft.curves(&file("_energy"), &header, energies)
-}
-
-fn variant(case: &Case) -> String {
-    match case.model.name {
-        "" => "standard".into(),
-        name => name.trim_start_matches('/').into(),
-    }
 }

@@ -3,7 +3,7 @@
 use super::style;
 use actin_draw::scene3d::{Item, Solid, Stroke};
 use actin_mechanics::{Vector3, rotation};
-use actin_sim::{BodyKind, End, Setting};
+use actin_sim::{BodyKind, End, JunctionBond, Setting};
 use actin_view::{Drawing, INSIDE_NM, bodies};
 
 const PIECES: u32 = 24;
@@ -88,6 +88,22 @@ pub(super) fn frame(drawing: &Drawing<'_>, frame: usize, at: Vector3, length_nm:
         Item::arrow(ends, stroke).nearer(INSIDE_NM)
     };
     [0, 1, 2].map(axis).into()
+}
+
+/// Bonds of the junction, numbered from the end of the rod.
+pub(super) fn junction_bonds(drawn: &Drawing<'_>) -> Vec<(usize, JunctionBond)> {
+    let bonds = drawn.assembly.junction_bonds();
+    (1..=bonds.len()).rev().zip(bonds).collect()
+}
+
+/// Frames of junction bonds, each at the middle of its bond.
+pub(super) fn bond_frames(drawing: &Drawing<'_>, length_nm: f64) -> Vec<Item> {
+    let bonds = drawing.assembly.junction_bonds().into_iter();
+    let frames = bonds.flat_map(|bond| {
+        let [monomer, node] = bodies::ends_of(&bond, drawing.state);
+        frame(drawing, bond.frame, 0.5 * (monomer + node), length_nm)
+    });
+    frames.collect()
 }
 
 /// Position of a clamped end (nm, lab frame), and unit vectors outward and across the built filament. `None` if the

@@ -3,7 +3,7 @@
 use crate::figures::draft::Draft;
 use crate::measure::{Curve, MeasureError, Specimen, Stability, TwistPoint, twist};
 use crate::published::{Entry, Table, entries};
-use crate::statistics::{Sample, sample};
+use crate::statistics::{SampleStatistics, sample};
 use actin_sim::{Anchors, Monomers, ellipsoid_constants as monomer};
 use std::sync::OnceLock;
 
@@ -153,7 +153,7 @@ impl Ensemble {
             .collect()
     }
 
-    pub(super) fn sample(&self, kind: Kind, entry: &Entry, table: Table) -> Sample {
+    pub(super) fn sample(&self, kind: Kind, entry: &Entry, table: Table) -> SampleStatistics {
         let points = self.points(kind, entry);
         sample(points.iter().map(|(_, point)| value(point, table)))
     }

@@ -43,7 +43,7 @@ pub(super) fn rows(draft: &mut Draft<'_>) -> Result<(), String> {
                 "{rises} rises, {:.2} nm, at {curvature} rad/nm; mean of {} samplings, sd {:.0}",
                 length_nm(rises),
                 b3.count,
-                b3.sd
+                b3.sd()
             );
             let direction = if curvature > 0.0 { "over" } else { "under" };
             let at = if phi > 0.0 {
@@ -53,7 +53,7 @@ pub(super) fn rows(draft: &mut Draft<'_>) -> Result<(), String> {
             };
             let quantity = format!("b3/length-{rises}/{direction}/{at}");
             draft.row(quantity, "pN nm^2", b3.mean, note);
-            let numbers = [curvature, b3.mean, b3.sd, change.mean, change.sd];
+            let numbers = [curvature, b3.mean, b3.sd(), change.mean, change.sd()];
             lines.push((vec![rises.to_string()], vec![numbers]));
         }
     }

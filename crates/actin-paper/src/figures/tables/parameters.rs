@@ -8,19 +8,13 @@ use std::f64::consts::PI;
 type Parameter = (&'static str, &'static str, f64);
 
 pub(in crate::figures) fn table1(draft: &mut Draft<'_>) -> Result<(), String> {
-    draft.settings =
-        "Defaults of the monomers of a scene compared with published numbers, and numbers derived from \
-        them. No fits and no random numbers."
-            .into();
+    draft.describe("table1", &[])?;
     let monomers = Monomers::default();
     list(draft, &[published(&monomers), derived(&monomers)].concat())
 }
 
 pub(in crate::figures) fn table2(draft: &mut Draft<'_>) -> Result<(), String> {
-    draft.settings = "The rod named PrecedingPaper in scenes, with a cross-section of 38.5 nm^2; the paper prints \
-        formulas for some numbers. Only the stiff cantilever uses this rod. No random \
-        numbers."
-        .into();
+    draft.describe("table2", &[])?;
     list(draft, &rods())
 }
 

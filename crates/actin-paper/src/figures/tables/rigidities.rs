@@ -3,15 +3,18 @@
 use super::ensemble::{Kind, RISES, core};
 use super::thermal;
 use crate::figures::draft::{Column, Draft, number};
+use crate::figures::texts::Values;
 use crate::measure::{
     Curve, Evidence, MeasureError, Specimen, bend_by_couples, bend_by_tip_force, shear_by_force,
     stretch_by_force, stretch_by_shift,
 };
-use crate::published::{Table, entries};
-use crate::statistics::{Sample, largest, sample};
+use crate::published::{Table, entries, table};
+use crate::statistics::{SampleStatistics, largest, sample};
 use actin_draw::page::significant;
 use actin_sim::{Monomers, ellipsoid_constants as monomer, rod_constants as rod};
+use serde::Deserialize;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Axial forces (pN). S3 is compared at `PULL_PN`.
 const FORCES_PN: [f64; 6] = [-10.0, -1.0, 1.0, 10.0, PULL_PN, 500.0];
@@ -41,7 +44,7 @@ const STIFFER: f64 = 2.7;
 const POISSON: f64 = 0.4;
 
 /// Load of a filament and evaluation of the rigidity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 enum Protocol {
     StretchByForce,
     StretchByShift,
@@ -58,58 +61,19 @@ enum Protocol {
     ShearCubic,
 }
 
-/// Protocols with a row for every load: name of the quantity, unit and description.
-const LISTED: [(Protocol, &str, &str, &str); 8] = [
-    (
-        Protocol::StretchByForce,
-        "s3/by-force",
-        "pN",
-        "secant F L/dL at a force (pN)",
-    ),
-    (
-        Protocol::StretchByShift,
-        "s3/by-shift",
-        "pN",
-        "secant F L/dL at a prescribed strain",
-    ),
-    (
-        Protocol::Couples,
-        "b1/couples",
-        "pN nm^2",
-        "secant M/kappa at a curvature (rad/nm)",
-    ),
-    (
-        Protocol::TipLinear,
-        "b1/tip-force-linear",
-        "pN nm^2",
-        "cantilever at a force (pN), linear theory; shear, which adds to the deflection, is neglected",
-    ),
-    (
-        Protocol::TipElastica,
-        "b1/tip-force-elastica",
-        "pN nm^2",
-        "cantilever at a force (pN), elastica; shear, which adds to the deflection, is neglected",
-    ),
-    (
-        Protocol::ShearApparent,
-        "s1/apparent",
-        "pN",
-        "F L/d at a force (pN), bending included",
-    ),
-    (
-        Protocol::ShearSecant,
-        "s1/secant",
-        "pN",
-        "secant F/gamma at a force (pN) on parallel ends, without the bending of a guided beam with B at 1e-4 \
-         rad/nm",
-    ),
-    (
-        Protocol::ShearCubic,
-        "s1/cubic",
-        "pN",
-        "F/gamma^3 at a force (pN); constant for a cubic law",
-    ),
-];
+/// Measured rigidity: a line of `data/rigidities.csv`.
+#[derive(Debug, Deserialize)]
+struct Rigidity {
+    quantity: String,
+    unit: String,
+    protocol: Protocol,
+    /// Prescribed value of the compared rigidity; a row for every value if `None`.
+    at: Option<f64>,
+    words: String,
+}
+
+static RIGIDITIES: LazyLock<Vec<Rigidity>> =
+    LazyLock::new(|| table(include_str!("../../../data/rigidities.csv")));
 
 #[derive(Clone, Copy, Debug)]
 struct Reading {
@@ -133,7 +97,7 @@ struct Readings {
 pub(in crate::figures) fn table4(draft: &mut Draft<'_>) -> Result<(), String> {
     let drawn = measure(draft, Kind::DEFAULT)?;
     let mean = measure(draft, Kind::MEAN)?;
-    draft.settings = settings(&drawn);
+    settings(draft, &drawn)?;
     rigidities(draft, &drawn, Kind::DEFAULT)?;
     derived(draft);
     if !draft.quick {
@@ -276,7 +240,7 @@ impl Readings {
         self.all.iter().filter(move |r| r.protocol == protocol)
     }
 
-    fn sample(&self, protocol: Protocol, at: f64) -> Sample {
+    fn sample(&self, protocol: Protocol, at: f64) -> SampleStatistics {
         let own = self.of(protocol).filter(|r| is_at(r, at));
         sample(own.map(|r| r.secant))
     }
@@ -305,80 +269,37 @@ fn is_at(reading: &Reading, at: f64) -> bool {
     reading.at.total_cmp(&at).is_eq()
 }
 
-fn settings(readings: &Readings) -> String {
+fn settings(draft: &mut Draft<'_>, readings: &Readings) -> Result<(), String> {
     let count = |protocol, at| readings.sample(protocol, at).count;
-    let unstable = readings
-        .all
-        .iter()
-        .filter(|r| !r.evidence.is_stable())
-        .count();
-    format!(
-        "64 independent bonds per interface; the mean filament has 12 quadrature bonds and is one filament. Stretch: \
-         {} samplings (seeds from 0), {:.2} nm, without rotation. Bending and shear: {} samplings at azimuths \
-         {AZIMUTHS_DEG:?} deg, {:.2} nm, both orientations clamped, the far end slides freely. Two monomers are \
-         clamped at each end; lengths are between the inner ones. {unstable} of {} readings are not certified \
-         stable; {} loads were not reached. Torques at both ends agree to {:.0e}.",
-        count(Protocol::StretchByForce, PULL_PN),
-        RISES * Monomers::default().rise_nm,
-        count(Protocol::Couples, BENT) / AZIMUTHS_DEG.len(),
-        BENT_RISES * Monomers::default().rise_nm,
-        readings.all.len(),
-        readings.unreached,
-        readings.mismatch,
-    )
+    let bent = count(Protocol::Couples, BENT) / AZIMUTHS_DEG.len();
+    let unstable = readings.all.iter().filter(|r| !r.evidence.is_stable());
+    let length = |rises: f64| format!("{:.2}", rises * Monomers::default().rise_nm);
+    let values: Values<'_> = &[
+        ("stretched", &count(Protocol::StretchByForce, PULL_PN)),
+        ("stretched_nm", &length(RISES)),
+        ("bent", &bent),
+        ("azimuths", &format!("{AZIMUTHS_DEG:?}")),
+        ("bent_nm", &length(BENT_RISES)),
+        ("unstable", &unstable.count()),
+        ("count", &readings.all.len()),
+        ("unreached", &readings.unreached),
+        ("mismatch", &format!("{:.0e}", readings.mismatch)),
+    ];
+    draft.describe("table4", values)
 }
 
-fn describe(sample: &Sample) -> String {
+fn describe(sample: &SampleStatistics) -> String {
     if sample.count == 1 {
         return "one filament".to_owned();
     }
     format!(
         "mean of {}, sd {}, range {} to {}",
         sample.count,
-        significant(sample.sd),
+        significant(sample.sd()),
         significant(sample.low),
         significant(sample.high)
     )
 }
-
-/// Compared rigidities: name, unit, protocol, prescribed value and description.
-const COMPARED: [(&str, &str, Protocol, f64, &str); 5] = [
-    (
-        "s3",
-        "pN",
-        Protocol::StretchByForce,
-        PULL_PN,
-        "secant F L/dL at 100 pN",
-    ),
-    (
-        "b1",
-        "pN nm^2",
-        Protocol::Couples,
-        BENT,
-        "secant M/kappa at 0.01 rad/nm",
-    ),
-    (
-        "b1/cantilever",
-        "pN nm^2",
-        Protocol::CantileverLinear,
-        CANTILEVER_PN,
-        "2 pN at the tip of 160 nm",
-    ),
-    (
-        "b1/cantilever/elastica",
-        "pN nm^2",
-        Protocol::CantileverElastica,
-        CANTILEVER_PN,
-        "2 pN at the tip of 160 nm",
-    ),
-    (
-        "s1",
-        "pN",
-        Protocol::ShearSecant,
-        SHEAR_PN[0],
-        "secant F/gamma at 0.01 pN",
-    ),
-];
 
 /// Rows of all measurements of one kind. Names of the mean filament begin with `mean-filament/`.
 fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<(), String> {
@@ -386,23 +307,23 @@ fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<
         Kind::MEAN => "mean-filament/",
         _ => "",
     };
-    for (protocol, quantity, unit, words) in LISTED {
-        for at in readings.prescribed(protocol) {
-            let s = readings.sample(protocol, at);
-            let note = format!("{words}, {}", describe(&s));
-            draft.row(format!("{path}{quantity}/{at}"), unit, s.mean, note);
+    for rigidity in RIGIDITIES.iter() {
+        let (unit, words) = (rigidity.unit.as_str(), &rigidity.words);
+        let name = format!("{path}{}", rigidity.quantity);
+        let sample = |at| readings.sample(rigidity.protocol, at);
+        let note = |s: &SampleStatistics| format!("{words}, {}", describe(s));
+        let Some(at) = rigidity.at else {
+            for at in readings.prescribed(rigidity.protocol) {
+                let s = sample(at);
+                draft.row(format!("{name}/{at}"), unit, s.mean, note(&s));
+            }
+            continue;
+        };
+        let s = sample(at);
+        if ["s3", "b1"].contains(&&*rigidity.quantity) {
+            scatter(draft, &name, unit, s.sd());
         }
-    }
-    for (name, unit, protocol, at, words) in COMPARED {
-        let s = readings.sample(protocol, at);
-        let (name, note) = (
-            format!("{path}{name}"),
-            format!("{words}, {}", describe(&s)),
-        );
-        if ["s3", "b1"].iter().any(|of| name.ends_with(of)) {
-            scatter(draft, &name, unit, s.sd);
-        }
-        draft.mean(name, unit, &s, note);
+        draft.scattered(name, unit, (s.mean, s.sd()), note(&s));
     }
     let note = "largest difference between two azimuths of one sampling, divided by its mean";
     let anisotropy = readings.anisotropy();
@@ -418,19 +339,15 @@ fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<
         ("persistence_length_um/at-rest", AT_REST, per_um),
     ] {
         let b1 = readings.sample(Protocol::Couples, at);
-        let length = (b1.mean * scale, b1.sd * scale);
+        let length = (b1.mean * scale, b1.sd() * scale);
         draft.scattered(format!("{path}{name}"), "um", length, "");
     }
     twisting(draft, path, kind)
 }
 
 fn scatter(draft: &mut Draft<'_>, of: &str, unit: &'static str, sd: f64) {
-    draft.row(
-        format!("{of}/sd"),
-        unit,
-        sd,
-        "standard deviation of a single filament",
-    );
+    let note = "standard deviation of a single filament";
+    draft.row(format!("{of}/sd"), unit, sd, note);
 }
 
 /// Rows of the largest twisting rigidity in each direction.
@@ -449,8 +366,8 @@ fn twisting(draft: &mut Draft<'_>, path: &str, kind: Kind) -> Result<(), String>
         let note = format!(
             "largest mean secant in {direction}-twist, at the twist of {phi} deg in Table 3"
         );
-        draft.mean(format!("{path}{name}"), "pN nm^2", &s, note);
-        scatter(draft, &format!("{path}{name}"), "pN nm^2", s.sd);
+        draft.scattered(format!("{path}{name}"), "pN nm^2", (s.mean, s.sd()), note);
+        scatter(draft, &format!("{path}{name}"), "pN nm^2", s.sd());
     }
     Ok(())
 }

@@ -2,8 +2,8 @@
 
 use super::ensemble::Kind;
 use crate::figures::draft::Draft;
-use crate::figures::model::monomers as section;
 use crate::measure::{RotationCorrelations, far_lengths, turns_in_bath};
+use crate::run::monomers as section;
 use actin_integrate::POSITION_VERLET;
 use actin_sim::{Filament, Monomers, ellipsoid_constants as monomer};
 

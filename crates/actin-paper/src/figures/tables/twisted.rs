@@ -4,12 +4,13 @@ use super::ensemble::{Ensemble, Kind, StabilityCounts, core, ensemble, turn_deg,
 use super::lengths;
 use crate::figures::charts::{dots, line};
 use crate::figures::draft::{Column, Draft, number};
-use crate::figures::expected::{Bound, DIFFERENCE, MeasuredRow};
-use crate::fit::TwistData;
+use crate::figures::expected::{DIFFERENCE, Holds};
+use crate::figures::texts::{ChartText, Values};
+use crate::fit::FitData;
 use crate::measure::TwistPoint;
 use crate::palette;
 use crate::published::{CURVATURE_ROUNDING, Entry, Table, entries};
-use crate::statistics::{Sample, rms, sample};
+use crate::statistics::{SampleStatistics, rms, sample};
 use actin_draw::report::{DEVIATIONS, Origin, Row};
 use actin_draw::{Colour, Mark, Series};
 use actin_sim::Anchors;
@@ -35,7 +36,12 @@ pub(in crate::figures) fn table3(draft: &mut Draft<'_>) -> Result<(), String> {
          in under-twist",
         over.len()
     );
-    draft.claim("under_twist_easier", share, Bound::AtLeast(1.0), statement);
+    draft.claim(
+        "under_twist_easier",
+        share,
+        Some((Holds::AtLeast, 1.0)),
+        statement,
+    );
     if draft.quick {
         return Ok(());
     }
@@ -48,22 +54,25 @@ pub(in crate::figures) fn table5(draft: &mut Draft<'_>) -> Result<(), String> {
 
 /// Twisting rigidity and change of length of our filaments at the reliable entries of the paper, for Figure 9: mean
 /// over samplings of the bonds, and mean filament.
-pub(in crate::figures) fn monomers(draft: &Draft<'_>) -> Result<[TwistData; 2], String> {
+pub(in crate::figures) fn monomers(draft: &Draft<'_>) -> Result<[FitData; 2], String> {
     let ensemble = core(draft)?;
-    let of = |kind, source: String| -> Result<TwistData, String> {
-        let column = |table| -> Result<Vec<(f64, f64)>, String> {
-            let all = entries(table).into_iter();
-            let reliable = all.filter(Entry::is_reliable);
-            let points = reliable.map(|e| (e.curvature, ensemble.sample(kind, &e, table).mean));
-            Ok(points.collect())
+    let of = |kind, source: String| {
+        let column = |table| {
+            let all = entries(table).into_iter().filter(Entry::is_reliable);
+            let points = all.map(|e| (e.curvature, ensemble.sample(kind, &e, table).mean));
+            points.collect()
         };
-        let [rigidity, length] = [column(Table::Rigidity)?, column(Table::LengthChange)?];
-        Ok(TwistData::new(source, rigidity, length))
+        FitData {
+            source,
+            rigidity: column(Table::Rigidity),
+            length: column(Table::LengthChange),
+            ..FitData::default()
+        }
     };
     let drawn = format!("our monomers, mean of {} samplings", ensemble.seeds);
     Ok([
-        of(Kind::DEFAULT, drawn)?,
-        of(Kind::MEAN, "our monomers, mean filament".to_owned())?,
+        of(Kind::DEFAULT, drawn),
+        of(Kind::MEAN, "our monomers, mean filament".to_owned()),
     ])
 }
 
@@ -91,7 +100,7 @@ impl TwistTable {
     }
 
     fn reproduce(&self, draft: &mut Draft<'_>) -> Result<(), String> {
-        draft.settings = self.settings();
+        self.settings(draft)?;
         for entry in &self.entries {
             self.mean_row(draft, entry);
             self.filament_row(draft, Kind::DEFAULT, "seed-0/", entry);
@@ -118,21 +127,19 @@ impl TwistTable {
         )
     }
 
-    fn settings(&self) -> String {
+    fn settings(&self, draft: &mut Draft<'_>) -> Result<(), String> {
         let doubts = self.ensemble.doubts(Kind::DEFAULT, &self.entries);
         let unreached = self.ensemble.unreached();
         let unreached = match unreached.first() {
             None => "Every angle was reached.".to_owned(),
             Some(first) => format!("{} angles were not reached: {first}.", unreached.len()),
         };
-        format!(
-            "30 monomers, two clamped at each end, 73.94 nm between the inner clamped ones; the far pair is rotated \
-             about the axis and slides only along it; secants at the printed twists. {} samplings of the bonds of \
-             each sampled kind, seeds from 0; means are over filaments with 64 independent bonds. Of these, {}. The \
-             mean filament has 12 quadrature bonds at each interface and no seed. {unreached}",
-            self.ensemble.seeds,
-            doubts.describe()
-        )
+        let values: Values<'_> = &[
+            ("seeds", &self.ensemble.seeds),
+            ("doubts", &doubts.describe()),
+            ("unreached", &unreached),
+        ];
+        draft.describe("twisted", values)
     }
 
     /// Row of an entry: mean over samplings of the default kind.
@@ -146,14 +153,14 @@ impl TwistTable {
             "mean of {} samplings at {:.2} deg, sd {}; {}",
             sample.count,
             turn_deg(entry),
-            short(sample.sd),
+            short(sample.sd()),
             doubts.describe()
         );
         let row =
             |note| Row::measured(draft.id, self.path("", entry), self.unit, sample.mean, note);
         if !entry.is_reliable() {
             let row = row(format!("{note}; the paper calls its value unreliable"));
-            draft.rows.push(MeasuredRow::beside(row, entry.value));
+            draft.compared(row.with_reference(entry.value, Origin::Paper));
             return;
         }
         let note = format!(
@@ -162,7 +169,7 @@ impl TwistTable {
             short(entry.rounding),
             short(along)
         );
-        let tolerance = entry.rounding + along + DEVIATIONS * sample.sd;
+        let tolerance = entry.rounding + along + DEVIATIONS * sample.sd();
         let row = row(note).with_paper_value(entry.value, tolerance);
         draft.compared(row);
     }
@@ -184,14 +191,9 @@ impl TwistTable {
             evidence.stability()
         );
         let quantity = format!("{before}{}", self.path(folder, entry));
-        let row = Row::measured(
-            draft.id,
-            quantity,
-            self.unit,
-            value(point, self.table),
-            note,
-        );
-        draft.rows.push(MeasuredRow::beside(row, entry.value));
+        let ours = value(point, self.table);
+        let row = Row::measured(draft.id, quantity, self.unit, ours, note);
+        draft.compared(row.with_reference(entry.value, Origin::Paper));
     }
 
     /// Row of the length that follows from the printed angles and twists.
@@ -300,50 +302,19 @@ impl TwistTable {
 
     /// Draws the default kind with error bars, and all kinds if they were computed.
     fn pictures(&self, draft: &mut Draft<'_>) -> Result<(), String> {
-        let (id, seeds) = (draft.id, self.ensemble.seeds);
-        let symbol = match self.table {
-            Table::Rigidity => "B3",
-            Table::LengthChange => "dL/L",
-        };
-        let caption = format!(
-            "{symbol} of 64 independent bonds per interface: mean and 2 sd over {seeds} samplings, and one \
-             sampling (seed 0). Mean filament: 12 quadrature bonds per \
-             interface. Dots: the paper; its entries above 200 deg, which it calls unreliable, \
-             are grey."
-        );
-        let title = format!("{symbol} at prescribed twist, {seeds} bond samplings");
-        self.chart(
-            draft,
-            format!("{id}.svg"),
-            &title,
-            self.of_default(),
-            caption,
-        )?;
+        self.chart(draft, "twisted", "", self.of_default())?;
         if self.ensemble.kinds().len() == Kind::CORE.len() {
             return Ok(());
         }
-        let [few, many] = palette::chosen().end_names();
-        let caption = format!(
-            "Means for 12 ({few}) to 160 ({many}) independent bonds, and mean with 2 sd for one pattern of 40 \
-             bonds on all interfaces (grey). The mean filament is the limit of many bonds."
-        );
-        let title = format!("{symbol} for other numbers and patterns of bonds");
-        self.chart(
-            draft,
-            format!("{id}_bonds.svg"),
-            &title,
-            self.of_kinds(),
-            caption,
-        )
+        self.chart(draft, "twisted_bonds", "_bonds", self.of_kinds())
     }
 
     fn chart(
         &self,
         draft: &mut Draft<'_>,
-        file: String,
-        title: &str,
+        text: &str,
+        suffix: &str,
         mut series: Vec<Series>,
-        caption: String,
     ) -> Result<(), String> {
         let mean = self.curve(Kind::MEAN);
         series.push(line("mean filament", palette::line(4), mean));
@@ -361,15 +332,23 @@ impl TwistTable {
                 ..dots(colour, points)
             });
         }
-        let (y_label, factor) = match self.table {
+        let (symbol, quantity, factor) = match self.table {
             // In thousands, for short axis labels.
-            Table::Rigidity => ("secant twisting rigidity B3 (1000 pN nm^2)", 1e-3),
-            Table::LengthChange => ("relative change of length dL/L", 1.0),
+            Table::Rigidity => ("B3", "secant twisting rigidity B3 (1000 pN nm^2)", 1e-3),
+            Table::LengthChange => ("dL/L", "relative change of length dL/L", 1.0),
         };
         let points = series.iter_mut().flat_map(|s| &mut s.points);
         points.for_each(|point| point.1 *= factor);
-        let x_label = "twist phi/L (rad/nm); over-twist is positive";
-        draft.plot(file, title, [x_label, y_label], series, caption)
+        let [few, many] = palette::chosen().end_names();
+        let values: Values<'_> = &[
+            ("symbol", &symbol),
+            ("quantity", &quantity),
+            ("seeds", &self.ensemble.seeds),
+            ("few", &few),
+            ("many", &many),
+        ];
+        let file = format!("{}{suffix}.svg", draft.id);
+        draft.plot(file, &ChartText::new(text, values)?, series)
     }
 
     fn of_default(&self) -> Vec<Series> {
@@ -427,7 +406,7 @@ impl TwistTable {
     fn bars(&self, kind: Kind, colour: Colour) -> Vec<Series> {
         let bar = |entry: &Entry| {
             let s = self.ensemble.sample(kind, entry, self.table);
-            let (low, high) = (s.mean - 2.0 * s.sd, s.mean + 2.0 * s.sd);
+            let (low, high) = (s.mean - 2.0 * s.sd(), s.mean + 2.0 * s.sd());
             let x = entry.curvature;
             let cap = |y| [(x - CAP, y), (x + CAP, y), (x, y)];
             let upper = cap(high).into_iter().rev();
@@ -444,7 +423,7 @@ impl TwistTable {
 struct OfKind {
     kind: Kind,
     entry: Entry,
-    sample: Sample,
+    sample: SampleStatistics,
     doubts: StabilityCounts,
 }
 
@@ -458,7 +437,7 @@ const KINDS: [Column<OfKind>; 14] = [
     }),
     ("paper", |k| number(k.entry.value)),
     ("mean", |k| number(k.sample.mean)),
-    ("sd", |k| number(k.sample.sd)),
+    ("sd", |k| number(k.sample.sd())),
     ("low", |k| number(k.sample.low)),
     ("high", |k| number(k.sample.high)),
     ("samplings", |k| k.sample.count.to_string()),
