@@ -145,7 +145,7 @@ fn bending_can_make_twist_unstable() {
     );
     let told = found.to_string();
     assert!(
-        told.contains("without axial force, at a curvature"),
+        told.contains("UNSTABLE at s = ") && told.contains(": curvature 0.0"),
         "{told}"
     );
 }

@@ -1,4 +1,4 @@
-//! Detection of twist instability under axial force.
+//! Detection of unstable twist.
 
 use super::Assembly;
 use super::range::{of_filament, percent};
@@ -7,7 +7,7 @@ use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Segment whose twist is unstable under its axial force.
+/// Segment whose twist is unstable under its axial force and curvature.
 ///
 /// The instability is local: the number of unstable modes and of domains of different twist depends
 /// on the segments.
@@ -24,9 +24,11 @@ pub struct UnstableTwist {
     /// Compression of the segment (pN); negative in tension.
     pub compression_pn: f64,
     /// Mean curvature of bending around the segment (rad/nm).
+    #[serde(default)]
     pub curvature_per_nm: f64,
     /// Critical compression of the twist (pN). If positive, larger compression is unstable; if
-    /// negative, larger tension is. `None` if the twist is unstable without axial force.
+    /// negative, larger tension is. `None` without such a bound, as if the curvature alone makes
+    /// the twist unstable.
     pub bound_pn: Option<f64>,
     /// Share of the records in which the section has an unstable segment.
     pub share_of_records: f64,
@@ -46,8 +48,8 @@ impl fmt::Display for UnstableTwist {
         };
         let cause = match self.bound_pn {
             None => {
-                let curvature = self.curvature_per_nm;
-                format!(" {place} without axial force, at a curvature of {curvature:.4} rad/nm")
+                let (curvature, tension) = (self.curvature_per_nm, -self.compression_pn);
+                format!(" {place}: curvature {curvature:.4} rad/nm, tension {tension:.2} pN")
             }
             Some(bound) if bound < 0.0 => exceeded("tension", -self.compression_pn, -bound),
             Some(bound) => exceeded("compression", self.compression_pn, bound),

@@ -119,7 +119,7 @@ impl Model {
             "data" => palette::DATA,
             "grey" => palette::GREY,
             "light-grey" => palette::LIGHT_GREY,
-            number => palette::line(number.parse().unwrap_or_default()),
+            number => palette::line(number.parse().expect("a colour of `data/models.csv`")),
         };
         line(self.words.clone(), colour, points)
     }

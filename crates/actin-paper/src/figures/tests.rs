@@ -8,6 +8,13 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 const SILENT: ProgressSink<'static> = &|_| ();
 
+#[test]
+fn every_artefact_has_a_title() {
+    for experiment in EXPERIMENTS {
+        assert!(texts::title(experiment.0).is_ok(), "{}", experiment.0);
+    }
+}
+
 static FOLDERS: AtomicUsize = AtomicUsize::new(0);
 
 struct Folder(PathBuf);

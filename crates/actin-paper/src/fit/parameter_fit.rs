@@ -43,11 +43,15 @@ impl ParameterFit {
     ) -> Result<Self, String> {
         let fit =
             || -> Result<Fit, FitError> { method.fit(model, data, &Bounds::new(&bounds)?, starts) };
-        Ok(Self {
-            fit: fit().map_err(|e| format!("{}: {e}", form.what))?,
-            form,
-            bounds,
-        })
+        let fit = fit().map_err(|e| format!("{}: {e}", form.what))?;
+        if fit.parameters.len() != form.parameters.len() {
+            let (found, named) = (fit.parameters.len(), form.parameters.len());
+            return Err(format!(
+                "{}: {found} parameters, but {named} names",
+                form.what
+            ));
+        }
+        Ok(Self { fit, form, bounds })
     }
 
     /// Parameters that are at a bound or that the data do not determine.

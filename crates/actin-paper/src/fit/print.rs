@@ -72,10 +72,10 @@ pub(super) fn groups(tell: ProgressSink<'_>, fits: &GroupFits) {
 
 fn group(tell: ProgressSink<'_>, fit: &GroupFit) {
     let (column, law) = (&fit.column, &fit.law);
-    let weights = if column.is_known() {
-        "weighted by their standard errors"
-    } else {
-        "without standard errors"
+    let weights = match (column.is_known(), fit.group.is_rigidity) {
+        (true, _) => "weighted by their standard errors",
+        (false, true) => "with relative weights",
+        (false, false) => "with equal weights",
     };
     let (formula, count) = (&fit.group.formula, column.len());
     tell(format_args!("\n{formula}, {count} values {weights}"));

@@ -72,7 +72,9 @@ pub(super) fn all(quick: bool) -> Vec<Case> {
     let chosen = listed.cases.into_iter().filter(|case| !quick || case.quick);
     chosen
         .map(|case| {
-            let rises = case.rises.unwrap_or(f64::NAN);
+            let is_sized = matches!(case.loading, Loading::Linked { .. });
+            let rises = case.rises.or(is_sized.then_some(f64::NAN));
+            let rises = rises.unwrap_or_else(|| panic!("`{}` needs `rises`", case.name));
             Case::new(case.group, case.name, rises, case.loading)
         })
         .collect()

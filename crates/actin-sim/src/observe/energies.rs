@@ -10,11 +10,10 @@ fn parts(assembly: &Assembly) -> (Vec<Part>, Vec<Option<usize>>) {
         Part::Load(_) | Part::Linker(_) | Part::Clamp(_) | Part::Contacts | Part::Wall(_) => None,
         // Terms of one part are contiguous.
         Part::Section(_) | Part::Junction(_) => {
-            let known = parts.iter().rposition(|known| *known == part);
-            Some(known.unwrap_or_else(|| {
+            if parts.last() != Some(&part) {
                 parts.push(part);
-                parts.len() - 1
-            }))
+            }
+            Some(parts.len() - 1)
         }
     };
     let places = assembly.terms.iter().map(|term| place(term.part)).collect();

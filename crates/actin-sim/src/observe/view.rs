@@ -1,4 +1,4 @@
-//! Record as input of observers, with shared lazy values.
+//! Record as input of observables, with shared lazy values.
 
 use crate::loads::loads_of;
 use crate::shape::Ribbon;

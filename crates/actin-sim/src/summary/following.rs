@@ -2,7 +2,7 @@
 
 use super::Summary;
 use crate::follow::StretchStart;
-use actin_assembly::worst;
+use actin_assembly::{UnstableTwist, worst};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -38,8 +38,12 @@ impl Summary {
             all.add_remarks(one);
         }
         all.beyond_use = worst(std::mem::take(&mut all.beyond_use));
+        let excess = |found: &UnstableTwist| {
+            let bound = found.bound_pn;
+            bound.map_or(f64::INFINITY, |bound| found.compression_pn / bound)
+        };
         all.unstable_twist
-            .sort_by(|a, b| b.compression_pn.total_cmp(&a.compression_pn));
+            .sort_by(|a, b| excess(b).total_cmp(&excess(a)));
         all.unstable_twist.truncate(1);
         if !last.observables.is_empty() || last.thermal.is_some() {
             let note =

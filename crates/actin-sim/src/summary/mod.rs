@@ -89,7 +89,7 @@ pub struct Summary {
     /// Violations of the limits of the model, the worst of all records; the run has then failed.
     #[serde(default)]
     pub beyond_use: Vec<ModelLimitExceeded>,
-    /// Compression at which the twist of a rod becomes unstable; empty in a heat bath.
+    /// Segments with unstable twist, one for each rod; empty in a heat bath.
     ///
     /// The worst of all records for a run, otherwise of the last record.
     #[serde(default)]

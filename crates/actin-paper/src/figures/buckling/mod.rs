@@ -23,7 +23,7 @@ const LENGTH_NM: f64 = 300.0;
 const RODS: [u32; 7] = [240, 207, 173, 140, 107, 73, 40];
 const QUICK_RODS: [u32; 3] = [240, 140, 40];
 
-/// Names of the models with `--quick`: those of the picture and with constant rigidities.
+/// Names of the models with `--quick`: the model of the picture, and rods of constant rigidities.
 const QUICK_MODELS: [&str; 2] = ["", "standard/"];
 
 fn models_of(figure: &str, quick: bool) -> Vec<&'static Model> {
@@ -69,6 +69,14 @@ fn reproduce(plan: &Plan, draft: &mut Draft<'_>) -> Result<(), String> {
         ("file", &file(plan.id)),
         ("count", &results.outcomes.len()),
         ("seeds", &plan.seeds),
+        (
+            "mean",
+            &if plan.quick {
+                ""
+            } else {
+                ", and the mean filament, which has no seed"
+            },
+        ),
     ];
     draft.describe("buckling", values)?;
     rows::rows(plan, draft, &results);

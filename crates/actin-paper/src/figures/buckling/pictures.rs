@@ -67,7 +67,12 @@ fn filaments(plan: &Plan, results: &Results, turn: i32) -> Vec<Filament> {
 fn lines(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) -> Result<(), String> {
     let filaments = filaments(plan, results, turn);
     let turned = in_words(turn);
-    let values: Values<'_> = &[("turn", &turned), ("rods", &plan.rods)];
+    let mean = if plan.quick {
+        ""
+    } else {
+        "Black: the mean filament without rod. "
+    };
+    let values: Values<'_> = &[("turn", &turned), ("rods", &plan.rods), ("mean", &mean)];
     for view in ["plane", "side", "end"] {
         let texts = ChartText::new(&format!("buckling_{view}"), values)?;
         let file = format!("{}_{view}.svg", stem(plan, turn));
