@@ -59,7 +59,7 @@ pub(crate) fn draw(
         laws: [
             ("published parameters", Box::new(move |k| b3.secant(k))),
             ("the same form, refitted", Box::new(move |k| tanh.secant(k))),
-            ("saturating to either side", Box::new(sided)),
+            ("saturating form", Box::new(sided)),
         ],
     };
     let length = Panel {

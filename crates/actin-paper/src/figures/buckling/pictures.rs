@@ -64,6 +64,10 @@ fn filaments(plan: &Plan, results: &Results, turn: i32) -> Vec<Filament> {
     drawn.chain(mean).collect()
 }
 
+/// End of the captions of charts with the mean filament.
+const MEAN_FILAMENT: &str = " The mean filament has 12 quadrature bonds per interface, which represent all possible \
+                             bonds. The balance as printed uses it.";
+
 fn lines(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) -> Result<(), String> {
     let filaments = filaments(plan, results, turn);
     let turned = in_words(turn);
@@ -99,10 +103,12 @@ fn against_resolution(
         model.curve(means.collect())
     });
     let turned = in_words(turn);
+    let mean = if plan.quick { "" } else { MEAN_FILAMENT };
     let values: Values<'_> = &[
         ("turn", &turned),
         ("rods", &plan.rods),
         ("seeds", &plan.seeds),
+        ("mean", &mean),
     ];
     let texts = ChartText::new(&format!("buckling_{name}"), values)?;
     let file = format!("{}_{name}.svg", stem(plan, turn));
