@@ -17,12 +17,13 @@ const DRAWN: &str = include_str!("drawn_filament.csv");
 /// Coefficients of the mean filament at 298 K, from `cargo xtask homogenise heat`.
 const AT_298_K: &str = include_str!("mean_filament_298_k.csv");
 
-/// Range of the fit. Stretch is relative to the free stretch of the bent and sheared cell.
+/// Range of the fit.
 const RANGE: StrainRange = StrainRange {
     twist: 0.048,
     curvature: 0.01,
-    shear: 0.015,
+    shear: 0.02,
     stretch: [-2e-3, 6e-3],
+    is_tension_free: true,
 };
 
 /// Range of the samples at 298 K.
@@ -31,6 +32,7 @@ const RANGE_AT_298_K: StrainRange = StrainRange {
     curvature: 0.01,
     shear: 0.05,
     stretch: [-8e-3, 8e-3],
+    is_tension_free: false,
 };
 
 /// Range of the data of a potential.
@@ -42,8 +44,10 @@ pub struct StrainRange {
     pub curvature: f64,
     /// Shear strain.
     pub shear: f64,
-    /// Stretch relative to the natural length, in compression and in tension.
+    /// Stretch relative to the natural length at the twist, in compression and in tension.
     pub stretch: [f64; 2],
+    /// Whether `stretch` is relative to the length without tension at the curvature and shear too.
+    pub is_tension_free: bool,
 }
 
 impl StrainRange {
@@ -53,6 +57,7 @@ impl StrainRange {
         curvature: f64::INFINITY,
         shear: f64::INFINITY,
         stretch: [f64::NEG_INFINITY, f64::INFINITY],
+        is_tension_free: false,
     };
 }
 

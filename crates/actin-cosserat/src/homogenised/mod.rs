@@ -32,6 +32,13 @@ use terms::{BY_TWIST, InvariantJet, Invariants, Jet, TermSum, Variables, values}
 /// (pN nm) and forces (pN), body axes.
 type SixVector = Vector6<f64>;
 
+/// Search for the stretch without tension: number of steps, largest step, last step, and lower bound
+/// of the stiffness (pN).
+const FREE_STEPS: usize = 30;
+const LARGEST_FREE_STEP: f64 = 2e-3;
+const FREE_TOLERANCE: f64 = 1e-7;
+const SOFTEST_STRETCH: f64 = 1e3;
+
 /// Invariants of the strains, with the natural length of the straight rod.
 ///
 /// ```text
@@ -314,6 +321,25 @@ impl Homogenised {
     /// Stretch of the straight rod without force at a twist (rad/nm).
     pub fn natural_stretch(&self, twist: f64) -> f64 {
         self.form.natural_stretch(self.scales[2] * twist)
+    }
+
+    /// Stretch at a strain, relative to the length that the [range](StrainRange::stretch) refers to.
+    pub fn stretch_in_range(&self, strain: &SixVector) -> f64 {
+        if !self.range.is_tension_free {
+            return strain[5] - self.natural_stretch(strain[2]);
+        }
+        let mut free = *strain;
+        // Newton's method; steps are limited and the stiffness is bounded, since the tension may
+        // have an inflection beyond the data.
+        for _ in 0..FREE_STEPS {
+            let jet = self.jet(&free);
+            let step = jet.loads[5] / f64::max(jet.tangent[(5, 5)], SOFTEST_STRETCH);
+            free[5] -= step.clamp(-LARGEST_FREE_STEP, LARGEST_FREE_STEP);
+            if step.abs() < FREE_TOLERANCE {
+                break;
+            }
+        }
+        strain[5] - free[5]
     }
 
     fn sum(&self, invariants: Invariants) -> InvariantJet {

@@ -214,6 +214,23 @@ fn least(law: &Homogenised, strain: &SixVector) -> f64 {
     law.tangent(strain).symmetric_eigenvalues().min()
 }
 
+/// A bent and sheared rod without tension is within the range of the data, however much it shortens.
+#[test]
+fn the_range_refers_to_the_length_without_tension() {
+    let law = Homogenised::mean_filament();
+    for (curvature, shear) in [(0.0, 0.0), (5e-3, 2e-3), (0.01, 0.015)] {
+        let mut strain = SixVector::new(curvature, 0.0, 0.01, 0.0, shear, 0.0);
+        strain[5] -= law.stretch_in_range(&strain);
+        let tension = law.loads(&strain)[5];
+        assert!(tension.abs() < 1e-3, "{tension}");
+        for more in [-2e-3, 6e-3] {
+            let stretched = strain + SixVector::ith(5, more);
+            let found = law.stretch_in_range(&stretched);
+            assert!((found - more).abs() < 1e-7, "{found}");
+        }
+    }
+}
+
 fn assert_stable(law: &Homogenised, stretch: [f64; 2]) {
     for strain in strains_in_range(law, stretch) {
         let least = least(law, &strain);

@@ -33,15 +33,19 @@ struct Excess {
 
 /// Writes `extrapolation.csv`; with `write` also into the folder of the committed table.
 pub(super) fn run(out: &Path, write: bool, tell: ProgressSink<'_>) -> Result<(), String> {
-    let all = RISES.par_iter().map(|&rises| excesses(out, rises));
-    let all = all.collect::<Result<Vec<_>, String>>()?;
-    let table = table(all.into_iter().flatten().collect());
+    let table = computed(out)?;
     tell(format_args!("{table}"));
     save(out, FILE, &table)?;
     if write {
         save(&crate::workspace_root().join(COMMITTED), FILE, &table)?;
     }
     Ok(())
+}
+
+fn computed(out: &Path) -> Result<String, String> {
+    let all = RISES.par_iter().map(|&rises| excesses(out, rises));
+    let all = all.collect::<Result<Vec<_>, String>>()?;
+    Ok(table(all.into_iter().flatten().collect()))
 }
 
 /// Excess strains and errors under each force, for a rod with segments of 10 nm.
@@ -98,4 +102,27 @@ fn table(mut all: Vec<Excess>) -> String {
         }
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The warnings of the program quote errors of the present law. The bound is the rounding of
+    /// four decimals.
+    #[test]
+    fn the_committed_errors_come_out_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let committed = crate::workspace_root().join(COMMITTED).join(FILE);
+        let committed = std::fs::read_to_string(committed).unwrap();
+        let again = computed(folder.path()).unwrap();
+        assert_eq!(again.lines().count(), committed.lines().count());
+        for (new, old) in again.lines().zip(committed.lines()) {
+            for (a, b) in new.split(',').zip(old.split(',')) {
+                let both = a.parse::<f64>().ok().zip(b.parse::<f64>().ok());
+                let is_equal = both.map_or(a == b, |(a, b)| (a - b).abs() < 1.5e-4);
+                assert!(is_equal, "{new}, committed {old}");
+            }
+        }
+    }
 }

@@ -183,6 +183,8 @@ pub(super) enum Group {
     Buckled,
     Twisted,
     Stretched,
+    /// Pushed along the axis beyond buckling.
+    Column,
     /// Rods joined to monomers, at all resolutions.
     Mixed,
     /// Free filaments in a heat bath.
@@ -208,7 +210,7 @@ pub(super) enum Bound {
 }
 
 /// Groups in the order of tables, with their names and bounds.
-const GROUPS: [(Group, &str, Bound); 10] = [
+const GROUPS: [(Group, &str, Bound); 11] = [
     (Group::Cantilever, "cantilever", TWO),
     (Group::PulledCantilever, "cantilever under tension", THREE),
     (Group::Guided, "guided beam", FIVE),
@@ -216,6 +218,7 @@ const GROUPS: [(Group, &str, Bound); 10] = [
     (Group::Buckled, "buckling, Figures 8 and 10", THREE),
     (Group::Twisted, "twist, Tables 3 and 5", Bound::Scatter),
     (Group::Stretched, "stretch and compression", FIVE),
+    (Group::Column, "buckled columns", FIVE),
     (Group::Mixed, "mixed filaments", Bound::Spread(0.02)),
     (Group::Thermal, "heat", FIVE),
     (Group::Beside, "beside the table", Bound::Open),
@@ -286,7 +289,7 @@ mod tests {
     fn bounds_are_those_of_the_table() {
         let texts = GROUPS.map(|(group, ..)| group.bound("").text());
         let expected = [
-            "2 %", "3 %", "5 %", "5 %", "3 %", "scatter", "5 %", "2 %", "5 %", "",
+            "2 %", "3 %", "5 %", "5 %", "3 %", "scatter", "5 %", "5 %", "2 %", "5 %", "",
         ];
         assert_eq!(texts, expected);
         assert_eq!(Group::Linked.bound("shape"), Bound::Distance(1.5));
