@@ -2,6 +2,7 @@
 
 use super::rules::{finite, positive, show};
 use super::{Hold, Scene, SceneProblem, Task};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Smallest number of monomers in a cell, below which its curvature is not well defined.
@@ -10,8 +11,7 @@ const LEAST_MONOMERS: f64 = 8.0;
 /// Adaptive resolution during a motion. A cell of the rod is resolved into monomers if at least one criterion
 /// requires it, and becomes a rod again if none does. Between the two thresholds of a criterion a cell keeps
 /// its model.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[serde(rename = "Following")]
 pub struct AdaptiveResolution {
@@ -46,8 +46,7 @@ fn default_least() -> f64 {
 }
 
 /// Criterion for resolving a cell into monomers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[serde(rename = "Where")]
 pub enum RefinementCriterion {

@@ -6,6 +6,7 @@ use actin_coupling::repulsion::Wall;
 use actin_mechanics::{Vector3, segments};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -23,8 +24,7 @@ const PARTS: u32 = 100;
 /// Placement of many filaments. The arranged filaments follow the listed ones, in the order of the arrangements.
 ///
 /// The resolved scene lists each filament.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Arrangement {
     /// Copies of a filament at equal displacements.
@@ -83,8 +83,7 @@ pub(crate) enum Arrangement {
 }
 
 /// Distribution of the directions of filaments.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub(crate) enum Orientation {
     /// Uniform on the sphere.
     #[default]

@@ -3,6 +3,7 @@
 use super::linker::check_site;
 use super::rules::positive;
 use super::{LinkerSite, Scene, SceneProblem, Task};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Spherical bead attached rigidly to a filament. A linker between the same site and an anchor is an optical trap.
@@ -10,8 +11,7 @@ use serde::{Deserialize, Serialize};
 /// The centre has the friction `6 pi eta r`, and rotations have `8 pi eta r^3`. `eta` is the viscosity of the fluid,
 /// and `r` the radius. The friction of the filament is added. A bead has no mass and no contacts, and does not change
 /// equilibria.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Bead {
     /// Centre of the bead, which may be off the axis of the filament.

@@ -2,6 +2,7 @@
 
 use super::rules::{non_negative, positive, show};
 use super::{Dynamics, Filament, Flow, Scene, SceneProblem, Task, Thermal, rules};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -11,8 +12,7 @@ const NS_PER_MS: f64 = 1e6;
 
 /// Overdamped motion in a fluid, with steps that are implicit in the stiffness. Inertia is neglected: recorded
 /// velocities are zero. Rods require `EnergyGradient`. Loads that rotate with the filament are refused.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Brownian {
     /// Simulated time; positive, at least the duration of the path.
@@ -49,8 +49,7 @@ pub struct Brownian {
 }
 
 /// Fluid with physical drag.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Fluid {
     /// A viscous fluid.
     Water(Water),
@@ -58,8 +57,7 @@ pub enum Fluid {
 
 /// A viscous fluid. Its drag is anisotropic and local: the drag of a cylinder of the filament's length,
 /// distributed uniformly (Tirado, Lopez Martinez and Garcia de la Torre 1984).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Water {
     /// Viscosity; positive. The default is the viscosity of water at 25 degrees C.
@@ -72,8 +70,7 @@ pub struct Water {
 }
 
 /// Model of the interfaces between monomers in overdamped motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Interfaces {
     /// Bonds. Their fastest relaxation time is 0.1 ps: a microsecond takes ten million steps.

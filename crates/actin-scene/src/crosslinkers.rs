@@ -5,6 +5,7 @@ use super::rules::{non_negative, positive};
 use super::{
     Breaking, Filament, Forming, Kinetics, Linker, LinkerSite, Roaming, SceneProblem, Stepping,
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Default energy of the longest linker that forms, in units of kT at 298 K. Longer ones are 2e4 times
@@ -21,8 +22,7 @@ const MOST: usize = 1_000_000;
 /// sites.
 ///
 /// In a scene in memory, each crosslinker is a linker with `kinetics`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Crosslinkers {
     /// Number of crosslinkers; from 1 to a million.

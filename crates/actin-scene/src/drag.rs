@@ -3,12 +3,12 @@
 use super::brownian::{Fluid, Water};
 use super::rules::non_negative;
 use super::{Dynamics, Integrator, SceneProblem};
+use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// Numerical damping, proportional to mass: velocities decay as `exp(-rate t)`. Physical drag follows from the
 /// viscosity of `Water`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[serde(rename = "Drag")]
 pub struct DragRates {
@@ -19,8 +19,7 @@ pub struct DragRates {
 }
 
 /// Drag of motion with inertia.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum DragModel {
     /// Numerical damping.

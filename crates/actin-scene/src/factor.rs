@@ -2,12 +2,12 @@
 
 use super::SceneProblem;
 use super::rules::{finite, positive, show};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Time-dependent factor of a load, in `Dynamics` and `Brownian`. It multiplies the factor that the path sets.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Factor {
     /// 1 at all times.

@@ -3,6 +3,7 @@
 use super::rules::{all_finite, finite, show};
 use super::{SceneProblem, rules};
 use actin_mechanics::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 const PER_S: f64 = 1e-9;
@@ -14,8 +15,7 @@ const LARGEST_TURN: f64 = 0.1;
 const PERPENDICULAR: f64 = 1e-6;
 
 /// Flow of the fluid (lab frame).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Flow {
     /// Fluid at rest.

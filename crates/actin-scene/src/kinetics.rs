@@ -2,6 +2,7 @@
 
 use super::rules::{non_negative, positive, show};
 use super::{Dynamics, Linker, Scene, SceneProblem, Task};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 const MOST_PLACES: f64 = 1e5;
@@ -16,8 +17,7 @@ const AVERAGED: f64 = 0.1;
 /// per linker. Zero-force rates times the step may be at most 0.1: the relative error of event times is `k
 /// h/2`. Below, `f` is the tension of the linker, or 0 in compression, averaged over `averaging_ns`. Thermal
 /// fluctuations that are faster do not change rates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Kinetics {
     /// Seed of the events. They depend only on the seed, the number of the step and the index of the linker.
@@ -50,8 +50,7 @@ pub struct Kinetics {
 /// The rate per site is `k exp(-U/kT)` with the rate `k` of `forms` and the energy `U` of the linker. Without mean load,
 /// detailed balance holds. With `averaging_ns: 0`, binding has the factor of `breaks` at the present tension, and
 /// detailed balance holds under any load. `at_nm` and `to` do not apply.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Roaming {
     /// Rate at which a free linker attaches one hand; positive.
@@ -61,8 +60,7 @@ pub struct Roaming {
 }
 
 /// Breaking at the rate `k exp(f/F)` (Bell), plus the rate of a catch bond.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Breaking {
     /// Rate `k` without force; positive.
@@ -76,8 +74,7 @@ pub struct Breaking {
 }
 
 /// Catch bond: breaking at the rate `k exp(-f/F)`, in addition to the rate of `Breaking`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Catch {
     /// Rate `k` without force; positive.
@@ -92,8 +89,7 @@ pub struct Catch {
 /// the ratio `exp(-U/kT)` of forming to breaking rates, which `breaks` does not satisfy. The steady state in a
 /// heat bath is therefore not thermal equilibrium, and events exchange energy with the filament
 /// (`events_pn_nm`). `Roaming` has a rate that depends on the energy.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Forming {
     /// Rate within reach; positive.
@@ -104,8 +100,7 @@ pub struct Forming {
 
 /// Stepping of a bound site at the rate `k (1 - f/F)`, limited to 0 to `k`. Here `f` is the resisting force of the
 /// linker along the filament.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stepping {
     /// Step length along the filament; not zero, negative towards the start. The first site is `at_nm`.

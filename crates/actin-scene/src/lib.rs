@@ -42,7 +42,6 @@ mod repulsion;
 mod rules;
 mod saddles;
 mod scene_file;
-#[cfg(feature = "schema")]
 mod schema;
 mod section;
 mod section_rules;
@@ -94,7 +93,6 @@ pub use problem::{SceneError, SceneProblem};
 pub use read::{read_all, read_ron, to_ron};
 pub use report::ParseReport;
 pub use repulsion::{Cuboid, Cylinder, Plane, Repulsion, Sphere, WallName};
-#[cfg(feature = "schema")]
 pub use schema::schema;
 pub use section::{MonomerChanges, RodChanges, Section};
 pub use sections::{Adaptive, Quantity, Sections, Target};

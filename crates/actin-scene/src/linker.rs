@@ -2,14 +2,14 @@
 
 use super::rules::{finite, non_negative, positive, show};
 use super::{Kinetics, Scene, SceneProblem, kinetics};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Hookean linker between a site of a filament and another site or a fixed anchor.
 ///
 /// A site has an arc length, a distance from the axis and an azimuth in the filament as built, independent of the
 /// model at the site. Exactly one of `to`, `anchor_nm` and `displaced_nm` defines the other end.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Linker {
     /// Index of the filament.
@@ -56,8 +56,7 @@ pub struct Linker {
 }
 
 /// Site of a linker on a filament.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "Site")]
 pub struct LinkerSite {
     /// Index of the filament.

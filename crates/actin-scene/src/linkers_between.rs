@@ -6,6 +6,7 @@ use super::{Filament, Kinetics, Linker, LinkerSite, PeriodicBox, SceneProblem};
 use actin_mechanics::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
@@ -18,8 +19,7 @@ pub(super) const MOST_SITES: f64 = 1e7;
 /// has at most one linker. The linkers follow the listed linkers.
 ///
 /// The resolved scene lists each linker.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LinkersBetween {
     /// Number of linkers divided by the number of filaments; positive.

@@ -2,11 +2,11 @@
 
 use super::{End, Factor, Scene};
 use actin_mechanics::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Load on a filament. The path multiplies `factor` by its own load factor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Load {
     /// Constant force on an end: on the last node of a rod, or half on each of the last two monomers. At a sliding
@@ -33,8 +33,7 @@ pub enum Load {
 }
 
 /// Force at one position of a filament.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Force {
     /// Index of the filament.
@@ -60,8 +59,7 @@ pub struct Force {
 }
 
 /// Couple at one position of a filament.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Couple {
     /// Index of the filament.
@@ -90,8 +88,7 @@ pub struct Couple {
 }
 
 /// Force per length of the filament at rest.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ForcePerLength {
     /// Index of the filament.
@@ -114,8 +111,7 @@ pub struct ForcePerLength {
 }
 
 /// Couple per length of the filament at rest.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CouplePerLength {
     /// Index of the filament.
@@ -138,8 +134,7 @@ pub struct CouplePerLength {
 }
 
 /// Force proportional to mass: weight, or the inertial force in an accelerated frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Acceleration {
     /// Index of the filament.

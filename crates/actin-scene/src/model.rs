@@ -3,11 +3,11 @@
 use super::RodLaw;
 use actin_cosserat::Rigidities;
 use actin_ellipsoid::{EllipsoidParameters, InterfaceParameters, constants};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the monomers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Monomers {
     /// Seed of sampled bonds. Must be omitted with `Cubature`.
@@ -17,11 +17,11 @@ pub struct Monomers {
     /// Bonds per lateral interface (monomer i to i + 1): 4 to 64 quadrature bonds, 12 by default; or 1 to 10,000
     /// sampled bonds, 64 by default.
     #[serde(default = "by_anchors")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = 12)))]
+    #[schemars(extend("default" = 12))]
     pub lateral_bonds: usize,
     /// Bonds per longitudinal interface (monomer i to i + 2), with the ranges and defaults of `lateral_bonds`.
     #[serde(default = "by_anchors")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = 12)))]
+    #[schemars(extend("default" = 12))]
     pub longitudinal_bonds: usize,
     /// Shortest bond of either kind; at least 0, less than both largest lengths. Shorter bonds are sampled again.
     pub min_bond_nm: f64,
@@ -48,8 +48,7 @@ pub struct Monomers {
 }
 
 /// Choice of the bonds of an interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Anchors {
     /// Different random bonds in each interface.
     Independent,
@@ -78,8 +77,7 @@ fn by_anchors() -> usize {
 }
 
 /// Parameters of the rod.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RodModel {
     /// Force law. `PaperBalance` requires the law `Constant` or `PublishedExtension`.
@@ -104,8 +102,7 @@ impl RodModel {
 }
 
 /// Transverse inertia of a segment. It affects only `Dynamics`, and not the means and fluctuations in a heat bath.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum RotaryInertia {
     /// Inertia of the cross-section. The time step does not grow with the length of segments above 10 nm.
     #[default]
@@ -116,8 +113,7 @@ pub enum RotaryInertia {
 }
 
 /// Force law of the rod.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum ForceLaw {
     /// Forces and torques are minus the gradient of an energy.
     #[default]
@@ -127,8 +123,7 @@ pub enum ForceLaw {
 }
 
 /// Rigidities of the rod.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Material {
     /// Table 4 of the paper.
@@ -146,8 +141,7 @@ pub enum Material {
 }
 
 /// Parameters of the junctions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct JunctionModel {
     /// Weight of each bond.
@@ -157,8 +151,7 @@ pub struct JunctionModel {
 }
 
 /// Weight of each bond of a junction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum JunctionWeight {
     /// The bonds of a junction share the rigidity of the rod.
     Shared,

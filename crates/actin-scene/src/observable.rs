@@ -2,6 +2,7 @@
 
 use super::rules::{non_negative, positive, show};
 use super::{ClampedEnds, End, Linker, Scene, SceneProblem, Section};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
@@ -11,8 +12,7 @@ const BURN_IN: f64 = 0.2;
 ///
 /// Names of columns begin with the quantity and the index of the filament or linker, and end with the unit:
 /// `tip[0]_x_nm`. Components are in the lab frame unless stated otherwise.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Observable {
     /// Position of an end: `tip[0]_x_nm`, for the other end `start[0]_x_nm`. For monomers it is the mean of the
@@ -161,8 +161,7 @@ pub enum Observable {
 }
 
 /// Point that moves with a filament.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Point {
     /// End of the filament.
     Tip,
@@ -179,8 +178,7 @@ fn last() -> End {
 }
 
 /// Optional output files of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
     /// True if pictures are written: `vtk` and `run.pvd`.

@@ -3,6 +3,7 @@
 use super::rules::{finite, positive, show};
 use super::{Factor, Flow, Linker, Repulsion, Scene, SceneProblem, Task};
 use actin_mechanics::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Box that is repeated along x, y and z. Linkers and repulsion act across its faces: filaments are continuous, a
@@ -10,8 +11,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// A shear strain displaces the images along x in proportion to their distance along z, and so does the fluid of
 /// `Brownian`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PeriodicBox {
     /// Edges along x, y and z; positive.

@@ -4,6 +4,7 @@ use super::rules::{all_finite, direction, each_positive, positive, show};
 use super::{Scene, SceneProblem};
 use actin_coupling::repulsion::{RepulsionError, Side, Wall};
 use actin_mechanics::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Radius (nm) that contains a monomer: centre at 1.8 nm, radial semi-axis 1.9 nm.
@@ -20,8 +21,7 @@ const STIFFNESS_PN_PER_NM: f64 = 1000.0;
 /// force is largest, `0.70 k R`, at `d = 2 R/3`. A run fails if two filaments are closer than this in a record,
 /// or closer than half of it at any time: they would pass through each other. `Equilibrium` rejects such steps.
 /// A wall exerts the force per length `k p^3/(6 R^3)` on a filament whose surface penetrates it by `p`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Repulsion {
     /// True if filaments repel each other. Parts of the same filament repel each other if their distance along
@@ -43,8 +43,7 @@ pub struct Repulsion {
 }
 
 /// Plane wall.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plane {
     /// Point of the plane (lab frame); finite.
@@ -54,8 +53,7 @@ pub struct Plane {
 }
 
 /// Spherical wall.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
     /// Centre (lab frame); finite.
@@ -67,8 +65,7 @@ pub struct Sphere {
 }
 
 /// Cylindrical wall of infinite length.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
     /// Point of the axis (lab frame); finite.
@@ -82,8 +79,7 @@ pub struct Cylinder {
 }
 
 /// Box of six plane walls around the filaments.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cuboid {
     /// Centre (lab frame); finite.

@@ -5,11 +5,11 @@ use super::{
     Arrangement, Bead, Clamp, Crosslinkers, Filament, Linker, LinkersBetween, Load, Observable,
     Output, PeriodicBox, Repulsion, Scene, SceneProblem, Stage, Start, Task,
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, clamps, loads, linkers and a task.
-#[derive(Clone, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "Scene")]
 pub(super) struct SceneFile {
     /// Title of the scene.

@@ -4,11 +4,11 @@ use super::RodLaw;
 use super::model::{Material, Monomers, RodModel};
 use actin_cosserat::RigidityFactors;
 use actin_mechanics::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Section of a filament with one resolution.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Section {
     /// Monomers as rigid ellipsoids. Boundaries are moved to the nearest position half a rise after a monomer.
@@ -39,8 +39,7 @@ pub enum Section {
 }
 
 /// Parameters of a rod that differ from `rod` of the filament.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[serde(rename = "AlteredRod")]
 pub struct RodChanges {
@@ -107,8 +106,7 @@ impl RodChanges {
 /// twist. Factors of 0.03 (lateral) and 0.23 (longitudinal) approximate cofilin: bending is 5 times softer,
 /// twisting 5 times at small twist, 7 times in over-twist and 13 times in under-twist at 0.01 rad/nm. At 298 K,
 /// factors of 0.02 and 0.45 have the measured ratio of persistence lengths with and without cofilin, 0.22.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[serde(rename = "Altered")]
 pub struct MonomerChanges {

@@ -2,6 +2,7 @@
 
 use super::rules::{positive, show};
 use super::{AdaptiveResolution, SceneProblem, Section};
+use schemars::JsonSchema;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{EnumAccess, Error as _, SeqAccess, Unexpected, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -40,8 +41,7 @@ enum AutoSections {
 /// resolution with the least work among those within the target errors. For an equilibrium without a limit of
 /// monomers the choice is monomers everywhere, since the measured errors require this run. Not available with
 /// thermal noise.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
     /// Length of the filament; positive. It is rounded to a whole number of monomers.
@@ -65,9 +65,8 @@ impl Adaptive {
 }
 
 /// Target quantity of the equilibrium, with its largest relative error.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename = "Want")]
 pub enum Target {
     /// Displacement of the end of the filament.
@@ -112,9 +111,8 @@ pub enum Target {
 }
 
 /// Quantity of an equilibrium.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Quantity {
     /// Displacement of the end of the filament (nm).
     Tip,
@@ -338,8 +336,7 @@ impl<'de> Visitor<'de> for SectionsVisitor {
     }
 }
 
-#[cfg(feature = "schema")]
-impl schemars::JsonSchema for Sections {
+impl JsonSchema for Sections {
     fn schema_name() -> std::borrow::Cow<'static, str> {
         "Sections".into()
     }

@@ -1,11 +1,11 @@
 //! Seeds of the random parts of a scene.
 
 use super::{Anchors, Scene, Section, Task};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Random part of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Drawn")]
 pub enum RandomPart {
     /// Sampled bonds of monomers (`monomers.seed`).

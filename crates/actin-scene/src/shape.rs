@@ -4,6 +4,7 @@ use super::curve::Curve;
 use super::rules::{check_curvature, finite, positive, show};
 use super::{Filament, SceneProblem};
 use actin_cosserat::constants::cross_section_radius;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -12,8 +13,7 @@ use std::f64::consts::TAU;
 ///
 /// Cross-sections follow the curve (parallel transport), from `roll_deg` at the start, and have the rest twist of
 /// the sections.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Shape {
     /// Arc of a circle that starts along `direction`; shorter than the full circle.

@@ -1,10 +1,10 @@
 //! Initial state of a scene.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Initial state of a run. Linkers, loads and stages begin as in the scene.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Start {
     /// Last state of a finished run with the same sections, for example to continue an equilibrium as a motion.

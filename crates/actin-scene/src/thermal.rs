@@ -1,6 +1,7 @@
 //! Thermal noise and its validation.
 
 use super::{Dynamics, Scene, SceneProblem, Task, rules};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Boltzmann constant (pN nm/K), exact in the SI.
@@ -11,8 +12,7 @@ pub const BOLTZMANN_PN_NM_PER_K: f64 = 0.013_806_49;
 
 /// Thermal noise, in balance with drag at a temperature. It depends only on the seed, the number of the step
 /// and the index of the body.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Thermal {
     /// Temperature; positive.

@@ -5,6 +5,7 @@ use super::{
     Bead, Brownian, DragModel, Imperfection, Linker, Load, Observable, Output, PeriodicBox,
     Quantity, Repulsion, Sections, Shape, Start, Thermal, scene_file::SceneFile,
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, clamps, loads, linkers and a task.
@@ -73,8 +74,7 @@ impl Scene {
 ///
 /// Shifts and turns start at zero. A load that any stage sets starts at factor 0. A path that sets loads must
 /// set all loads without a `factor`. Along other paths loads act in full from the start.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
     /// Target values at the end of the stage. The last setting of a control counts.
@@ -89,8 +89,7 @@ pub struct Stage {
 }
 
 /// Time course of the controls of a stage.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Pace")]
 pub enum TimeCourse {
     /// Smooth ramp, with zero velocity and acceleration at both ends.
@@ -101,8 +100,7 @@ pub enum TimeCourse {
 }
 
 /// Value of a control at the end of a stage.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Setting {
     /// Factor of a load.
@@ -151,8 +149,7 @@ pub enum Setting {
 }
 
 /// A filament: sections, parameters of their models, and position.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Filament {
     /// Sections in order of arc length, at least one. The first starts at 0, and each other at the end of the
@@ -192,8 +189,7 @@ pub(super) fn along_z() -> [f64; 3] {
 }
 
 /// End of a filament.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum End {
     /// End at arc length 0.
     Start,
@@ -202,8 +198,7 @@ pub enum End {
 }
 
 /// Clamped end.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Clamp {
     /// Index of the filament.
@@ -238,8 +233,7 @@ impl Clamp {
 /// Rotational spring between the cross-section at a pinned end and a frame that the path may turn. Its energy
 /// is `(k_b (theta_1^2 + theta_2^2) + k_t theta_3^2) / 2`. Here `theta` is the rotation vector between them,
 /// with the third component along the filament. A run fails if the angle reaches half a turn.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Hinge {
     /// Stiffness `k_b` of rotation about transverse axes; positive.
@@ -250,8 +244,7 @@ pub struct Hinge {
 
 /// Directions in which a clamped end can move as a rigid body. Its orientation is fixed unless it is pinned. A
 /// force on a sliding end is a constant end load.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Slides")]
 pub enum FreeTranslation {
     /// Fixed position.
@@ -264,8 +257,7 @@ pub enum FreeTranslation {
 }
 
 /// Constrained degrees of freedom of a clamped end.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Hold {
     /// Rod: the last node, and a wall frame joined to the last segment by half a segment of bending. Monomers:
     /// the last two.
@@ -282,8 +274,7 @@ pub enum Hold {
 }
 
 /// Computation to run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Task {
     /// Motion with inertia.
     Dynamics(Dynamics),
@@ -294,8 +285,7 @@ pub enum Task {
 }
 
 /// Equilibrium, or equilibria along the path.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Equilibrium {
     /// Tolerance of the residual force on a free body; positive, below half of every load.
@@ -344,8 +334,7 @@ impl Default for Equilibrium {
 }
 
 /// Motion with inertia, with optional drag.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Dynamics {
     /// Simulated time; positive, at least the duration of the path. The run ends earlier if `stop` is met.
@@ -416,8 +405,7 @@ impl Dynamics {
 }
 
 /// Integrator.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Integrator {
     /// Position Verlet: order 2, one force evaluation per step.
     PositionVerlet,
@@ -433,8 +421,7 @@ pub enum Integrator {
 }
 
 /// Tolerances of rest. The motion stops when all three are met.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[serde(rename = "StopRule")]
 pub struct StopTolerances {
