@@ -1,6 +1,6 @@
 //! Adaptive resolution during a motion: cells resolved into monomers where needed.
 
-use super::rules::{finite, positive, show};
+use super::rules::show;
 use super::{Hold, Scene, SceneProblem, Task};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -115,9 +115,6 @@ pub(super) fn check_following(
     following: &AdaptiveResolution,
 ) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("filament.sections.{name}");
-    positive(&key("length_nm"), following.length_nm)?;
-    positive(&key("cell_nm"), following.cell_nm)?;
-    positive(&key("least_ns"), following.least_ns)?;
     let refused =
         |name: &str, value: String, rule: String| Err(SceneProblem::new(key(name), value, rule));
     let shortest = LEAST_MONOMERS * scene.filament.monomers.rise_nm;
@@ -163,7 +160,6 @@ fn check_where(
         return Err(SceneProblem::new(format!("{key}.above"), show(above), rule));
     }
     let ([lower, upper], [low, high]) = criterion.thresholds();
-    finite(&format!("{key}.{upper}"), high)?;
     if low >= 0.0 && low < high {
         return Ok(());
     }

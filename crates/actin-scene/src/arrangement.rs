@@ -1,6 +1,6 @@
 //! Arrangements of filaments: copies, random networks and bundles.
 
-use super::rules::{all_finite, direction, non_negative, positive, show};
+use super::rules::show;
 use super::{Filament, PeriodicBox, Repulsion, SceneProblem, Section};
 use actin_coupling::repulsion::Wall;
 use actin_mechanics::{Vector3, segments};
@@ -158,35 +158,13 @@ impl Arrangement {
             let rule = format!("must be from 1 to {MOST_FILAMENTS}");
             return Err(SceneProblem::new(key("count"), count, rule));
         }
-        let filament = self.filament();
-        all_finite(&key("filament.at_nm"), filament.at_nm)?;
-        direction(&key("filament.direction"), filament.direction)?;
         match self {
-            Self::Copies { shift_nm, .. } => direction(&key("shift_nm"), *shift_nm),
             Self::Random {
-                box_nm,
-                centre_nm,
-                lengths_nm,
-                apart_nm,
+                lengths_nm: Some(lengths),
+                filament,
                 ..
-            } => {
-                non_negative(&key("apart_nm"), apart_nm.unwrap_or(0.0))?;
-                box_nm
-                    .iter()
-                    .try_for_each(|edge| non_negative(&key("box_nm"), *edge))?;
-                all_finite(&key("centre_nm"), *centre_nm)?;
-                lengths_nm.map_or(Ok(()), |lengths| {
-                    check_lengths(&key("lengths_nm"), lengths, filament)
-                })
-            }
-            Self::Bundle {
-                spacing_nm,
-                stagger_nm,
-                ..
-            } => {
-                positive(&key("spacing_nm"), *spacing_nm)?;
-                non_negative(&key("stagger_nm"), *stagger_nm)
-            }
+            } => check_lengths(&key("lengths_nm"), *lengths, filament),
+            _ => Ok(()),
         }
     }
 
@@ -413,9 +391,6 @@ fn copies(filament: &Filament, count: usize, shift: Vector3) -> Vec<Filament> {
 }
 
 fn check_lengths(key: &str, lengths: [f64; 2], filament: &Filament) -> Result<(), SceneProblem> {
-    lengths
-        .iter()
-        .try_for_each(|length| positive(key, *length))?;
     if lengths[0] > lengths[1] {
         let rule = "must be in ascending order";
         return Err(SceneProblem::new(key, show(lengths), rule));

@@ -1,7 +1,6 @@
 //! Beads on filaments and their validation.
 
 use super::linker::check_site;
-use super::rules::positive;
 use super::{LinkerSite, Scene, SceneProblem, Task};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,7 +22,6 @@ pub struct Bead {
 /// Checks bead `i`. The sections of the scene must be valid.
 pub(super) fn check(scene: &Scene, i: usize, bead: &Bead) -> Result<(), SceneProblem> {
     check_site(scene, &format!("beads[{i}].site"), &bead.site)?;
-    positive(&format!("beads[{i}].radius_nm"), bead.radius_nm)?;
     match &scene.task {
         Task::Dynamics(dynamics) if dynamics.drag.fluid().is_none() => {
             let rule = "has no effect without a fluid: write drag: Water() or Brownian";

@@ -1,6 +1,6 @@
 //! Overdamped motion in a fluid: the task `Brownian` and its validation.
 
-use super::rules::{non_negative, positive, show};
+use super::rules::show;
 use super::{Dynamics, Filament, Flow, Scene, SceneProblem, Task, Thermal, rules};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -154,16 +154,7 @@ impl Task {
 }
 
 pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
-    positive("task.duration_ms", brownian.duration_ms)?;
-    non_negative("task.temperature_k", brownian.temperature_k)?;
-    for (key, value) in [
-        ("task.time_step_ns", brownian.time_step_ns),
-        ("task.record_every_ns", brownian.record_every_ns),
-    ] {
-        value.map_or(Ok(()), |value| positive(key, value))?;
-    }
     if let Interfaces::QuasiHarmonic { sampled_ns } = brownian.interfaces {
-        positive("task.interfaces.sampled_ns", sampled_ns)?;
         if sampled_ns > MOST_SAMPLED_NS {
             let rule = format!(
                 "must be at most {MOST_SAMPLED_NS:?}: 400 ns determine each stiffness to 2 %"
@@ -179,21 +170,10 @@ pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
             return Err(SceneProblem::new("task.interfaces", "QuasiHarmonic", rule));
         }
     }
-    brownian.drag.check()?;
     brownian.flow.check()
 }
 
 impl Fluid {
-    pub(super) fn check(&self) -> Result<(), SceneProblem> {
-        let Self::Water(Water {
-            viscosity_mpa_s,
-            radius_nm,
-            ..
-        }) = *self;
-        positive("task.drag.viscosity_mpa_s", viscosity_mpa_s)?;
-        positive("task.drag.radius_nm", radius_nm)
-    }
-
     pub(super) fn check_filaments(&self, scene: &Scene) -> Result<(), SceneProblem> {
         let Self::Water(Water { radius_nm, .. }) = *self;
         let diameter = 2.0 * radius_nm;

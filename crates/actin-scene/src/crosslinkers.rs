@@ -1,7 +1,6 @@
 //! Crosslinkers and motors that bind to filaments and unbind from them.
 
 use super::linkers_between::{MOST_SITES, SITE_SPACING_NM};
-use super::rules::{non_negative, positive};
 use super::{
     Breaking, Filament, Forming, Kinetics, Linker, LinkerSite, Roaming, SceneProblem, Stepping,
 };
@@ -158,14 +157,9 @@ impl Crosslinkers {
             let rule = format!("must be from 1 to {MOST}");
             return Err(SceneProblem::new(key("count"), self.count, rule));
         }
-        positive(&key("stiffness_pn_per_nm"), self.stiffness_pn_per_nm)?;
-        non_negative(&key("rest_length_nm"), self.rest_length_nm)?;
-        non_negative(&key("radius_nm"), self.radius_nm)?;
-        positive(&key("attach_per_ns"), self.attach_per_ns)?;
-        positive(&key("bind_per_ns"), self.bind_per_ns)?;
-        self.check_kinetics(k, filaments)?;
-        if let Some(reach) = self.reach_nm {
-            positive(&key("reach_nm"), reach)?;
+        if let Some(steps) = &self.steps {
+            let lengths = filaments.iter().map(Filament::length_nm);
+            steps.check(&key("steps"), lengths.fold(0.0, f64::max))?;
         }
         if filaments.len() < 2 {
             let rule = "crosslinkers bind to different filaments: a scene has at least two";
@@ -186,23 +180,6 @@ impl Crosslinkers {
         if let (Some(spacing), Some(_)) = (self.site_spacing_nm, self.steps) {
             let rule = "the steps set the distance of sites: omit this key or steps";
             return Err(SceneProblem::new(key("site_spacing_nm"), spacing, rule));
-        }
-        Ok(())
-    }
-
-    fn check_kinetics(&self, k: usize, filaments: &[Filament]) -> Result<(), SceneProblem> {
-        let key = |name: &str| format!("crosslinkers[{k}].{name}");
-        self.unbinds.check(&key("unbinds"))?;
-        if let Some(steps) = &self.steps {
-            let longest = filaments
-                .iter()
-                .map(Filament::length_nm)
-                .fold(0.0, f64::max);
-            positive(&key("steps.rate_per_ns"), steps.rate_per_ns)?;
-            steps.check(&key("steps"), longest)?;
-        }
-        if let Some(averaging) = self.averaging_ns {
-            non_negative(&key("averaging_ns"), averaging)?;
         }
         Ok(())
     }

@@ -1,7 +1,6 @@
 //! Drag of motion with inertia: numerical damping or a fluid.
 
 use super::brownian::{Fluid, Water};
-use super::rules::non_negative;
 use super::{Dynamics, Integrator, SceneProblem};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -65,16 +64,8 @@ impl DragModel {
 }
 
 pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
-    let Some(fluid) = dynamics.drag.fluid() else {
-        let rates = dynamics.drag.rates();
-        non_negative("task.drag.translational_per_ns", rates.translational_per_ns)?;
-        return non_negative("task.drag.rotational_per_ns", rates.rotational_per_ns);
-    };
-    fluid.check()?;
-    if matches!(
-        dynamics.integrator,
-        Integrator::PositionVerlet | Integrator::Pefrl
-    ) {
+    let usual = [Integrator::PositionVerlet, Integrator::Pefrl];
+    if dynamics.drag.fluid().is_none() || usual.contains(&dynamics.integrator) {
         return Ok(());
     }
     let rule = "is not used with Water, which has its own integrator (Gronbech-Jensen and Farago): omit this key";

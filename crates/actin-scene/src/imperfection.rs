@@ -1,6 +1,6 @@
 //! Small geometric imperfection of a filament.
 
-use super::{Filament, SceneProblem, rules};
+use super::{Filament, SceneProblem};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +26,6 @@ pub(super) fn check(filament: &Filament) -> Result<(), SceneProblem> {
     };
     let key = "filament.imperfection.amplitude_nm";
     let amplitude = imperfection.amplitude_nm;
-    rules::positive(key, amplitude)?;
     let limit = LARGEST * filament.length_nm();
     if amplitude > limit {
         let rule = format!(

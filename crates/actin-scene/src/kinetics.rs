@@ -1,6 +1,6 @@
 //! Rates of breaking, forming and stepping of linkers, and their validation.
 
-use super::rules::{non_negative, positive, show};
+use super::rules::show;
 use super::{Dynamics, Linker, Scene, SceneProblem, Task};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -134,25 +134,12 @@ impl Kinetics {
     }
 
     fn check(&self, key: &str, length: f64) -> Result<(), SceneProblem> {
-        for (name, rate) in self.rates() {
-            positive(&format!("{key}.{name}"), rate)?;
-        }
-        if let Some(breaks) = &self.breaks {
-            breaks.check(&format!("{key}.breaks"))?;
-        }
-        if let Some(forms) = &self.forms {
-            positive(&format!("{key}.forms.reach_nm"), forms.reach_nm)?;
-        }
         if let Some(steps) = &self.steps {
             steps.check(&format!("{key}.steps"), length)?;
         }
-        let happens = self.breaks.is_some() || self.forms.is_some() || self.steps.is_some();
-        if !happens {
+        if self.breaks.is_none() && self.forms.is_none() && self.steps.is_none() {
             let rule = "has no events: write breaks, forms or steps, or omit kinetics";
             return Err(SceneProblem::new(key, "", rule));
-        }
-        if let Some(averaging) = self.averaging_ns {
-            non_negative(&format!("{key}.averaging_ns"), averaging)?;
         }
         if let Some(roams) = &self.roams {
             self.check_roaming(roams, key)?;
@@ -164,9 +151,7 @@ impl Kinetics {
         }
         Ok(())
     }
-}
 
-impl Kinetics {
     /// Averaging time of forces (ns).
     pub fn averaging_time(&self) -> f64 {
         let of_bound = self
@@ -180,7 +165,6 @@ impl Kinetics {
 
     fn check_roaming(&self, roams: &Roaming, key: &str) -> Result<(), SceneProblem> {
         let name = format!("{key}.roams");
-        positive(&format!("{name}.site_spacing_nm"), roams.site_spacing_nm)?;
         if self.bound {
             let rule = "linkers that roam are free at the start: write bound: false";
             return Err(SceneProblem::new(format!("{key}.bound"), true, rule));
@@ -200,34 +184,16 @@ impl Kinetics {
     }
 }
 
-impl Breaking {
-    pub(super) fn check(&self, key: &str) -> Result<(), SceneProblem> {
-        positive(&format!("{key}.rate_per_ns"), self.rate_per_ns)?;
-        if let Some(force) = self.force_pn {
-            positive(&format!("{key}.force_pn"), force)?;
-        }
-        let Some(catch) = &self.catch else {
-            return Ok(());
-        };
-        positive(&format!("{key}.catch.rate_per_ns"), catch.rate_per_ns)?;
-        positive(&format!("{key}.catch.force_pn"), catch.force_pn)
-    }
-}
-
 impl Stepping {
     pub(super) fn check(&self, key: &str, length: f64) -> Result<(), SceneProblem> {
-        positive(&format!("{key}.stall_pn"), self.stall_pn)?;
         let step = self.step_nm;
         let places = length / step.abs();
-        if step.is_finite() && places <= MOST_PLACES {
+        if places <= MOST_PLACES {
             return Ok(());
         }
         let rule = "must be finite, and at least a hundred-thousandth of the filament's length";
-        Err(SceneProblem::new(
-            format!("{key}.step_nm"),
-            show(step),
-            rule,
-        ))
+        let key = format!("{key}.step_nm");
+        Err(SceneProblem::new(key, show(step), rule))
     }
 
     /// Returns the arc lengths (nm) of all sites of a linker that steps from `from_nm`, on a filament of a

@@ -1,7 +1,6 @@
 //! Random linkers between neighbouring filaments.
 
 use super::periodic::neighbours;
-use super::rules::{non_negative, positive};
 use super::{Filament, Kinetics, Linker, LinkerSite, PeriodicBox, SceneProblem};
 use actin_mechanics::Vector3;
 use rand::{RngExt, SeedableRng};
@@ -117,25 +116,15 @@ impl LinkersBetween {
         periodic: Option<&PeriodicBox>,
     ) -> Result<(), SceneProblem> {
         let key = |name: &str| format!("linker_sets[{k}].{name}");
-        positive(&key("per_filament"), self.per_filament)?;
-        positive(&key("reach_nm"), self.reach_nm)?;
-        non_negative(&key("least_reach_nm"), self.least_reach_nm)?;
-        non_negative(&key("radius_nm"), self.radius_nm)?;
         check_reach(&key("reach_nm"), self.reach_nm, periodic)?;
-        positive(&key("site_spacing_nm"), self.site_spacing_nm)?;
-        positive(&key("stiffness_pn_per_nm"), self.stiffness_pn_per_nm)?;
         for (name, stiffness) in [
             ("tilt_pn_nm", self.tilt_pn_nm),
             ("twist_pn_nm", self.twist_pn_nm),
         ] {
-            non_negative(&key(name), stiffness)?;
             if stiffness > 0.0 && self.kinetics.is_some() {
                 let rule = "requires linkers without `kinetics`";
                 return Err(SceneProblem::new(key(name), stiffness, rule));
             }
-        }
-        if let Some(length) = self.rest_length_nm {
-            non_negative(&key("rest_length_nm"), length)?;
         }
         let length: f64 = filaments.iter().map(Filament::length_nm).sum();
         let sites = length / self.site_spacing_nm;
@@ -143,11 +132,8 @@ impl LinkersBetween {
             return Ok(());
         }
         let rule = format!("makes {sites:.0} sites, more than {MOST_SITES:.0}");
-        Err(SceneProblem::new(
-            key("site_spacing_nm"),
-            self.site_spacing_nm,
-            rule,
-        ))
+        let key = key("site_spacing_nm");
+        Err(SceneProblem::new(key, self.site_spacing_nm, rule))
     }
 
     fn sites(&self, filaments: &[Filament]) -> Vec<Site> {

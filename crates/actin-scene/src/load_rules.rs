@@ -1,6 +1,6 @@
 //! Validation of loads.
 
-use super::rules::{all_finite, check_exactly_one, show};
+use super::rules::{check_exactly_one, show};
 use super::{
     ClampedEnds, Couple, Dynamics, Force, FreeTranslation, Hold, Load, Resultant, Scene,
     SceneProblem,
@@ -10,16 +10,15 @@ impl Load {
     pub(super) fn check(
         &self,
         i: usize,
-        (scene, held): (&Scene, &ClampedEnds),
+        scene: &Scene,
+        held: &ClampedEnds,
     ) -> Result<(), SceneProblem> {
         let key = format!("loads[{i}]");
         scene.named_filament(&format!("{key}.filament"), self.filament())?;
-        let (name, size) = self.written();
-        all_finite(&format!("{key}.{name}"), size)?;
         self.factor().check(&format!("{key}.factor"))?;
         self.check_place(&key, scene)?;
         self.check_interval(&key, scene)?;
-        self.check_end(&key, (scene, held))
+        self.check_end(&key, scene, held)
     }
 
     fn check_place(&self, key: &str, scene: &Scene) -> Result<(), SceneProblem> {
@@ -68,11 +67,7 @@ impl Load {
     }
 
     /// Refuses a force on an end that cannot move and a couple on an end that cannot rotate.
-    fn check_end(
-        &self,
-        key: &str,
-        (scene, held): (&Scene, &ClampedEnds),
-    ) -> Result<(), SceneProblem> {
+    fn check_end(&self, key: &str, scene: &Scene, held: &ClampedEnds) -> Result<(), SceneProblem> {
         let Some(end) = self.end() else {
             return Ok(());
         };

@@ -1,6 +1,7 @@
 //! Observables and output files of a scene, and their validation.
 
-use super::rules::{non_negative, positive, show};
+use super::problem::Problems;
+use super::rules::show;
 use super::{ClampedEnds, End, Linker, Scene, SceneProblem, Section};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -222,8 +223,7 @@ impl Observable {
         }
     }
 
-    fn check(self, i: usize, (scene, held): (&Scene, &ClampedEnds)) -> Result<(), SceneProblem> {
-        let key = format!("observe[{i}]");
+    fn check(self, key: &str, scene: &Scene, held: &ClampedEnds) -> Result<(), SceneProblem> {
         let length = match self.filament() {
             None => 0.0,
             Some(index) => {
@@ -263,7 +263,6 @@ impl Observable {
                 lag_ns: Some(lag), ..
             } => check_lag(scene, &key("lag_ns"), lag),
             Self::TangentCorrelation { over_nm, .. } => {
-                positive(&key("over_nm"), over_nm)?;
                 let rule = || format!("must be below the length of the filament, {length:?}");
                 let refused = || SceneProblem::new(key("over_nm"), show(over_nm), rule());
                 (over_nm < length).then_some(()).ok_or_else(refused)
@@ -284,7 +283,6 @@ pub(super) fn check_linker(scene: &Scene, key: &str, linker: usize) -> Result<()
 }
 
 fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> {
-    positive(key, lag_ns)?;
     let rule = match scene.task.motion() {
         None => "Equilibrium is time-independent: omit this key".to_owned(),
         Some(motion) if lag_ns >= motion.duration_ns => {
@@ -295,28 +293,26 @@ fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> 
     Err(SceneProblem::new(key, show(lag_ns), rule))
 }
 
-pub(super) fn check_all(
-    scene: &Scene,
-    held: &ClampedEnds,
-    note: &mut impl FnMut(Result<(), SceneProblem>),
-) {
+pub(super) fn check_all(scene: &Scene, held: &ClampedEnds, problems: &mut Problems) {
     let mut before = HashSet::new();
     for (i, one) in scene.observe.iter().enumerate() {
-        if before.insert(show(one)) {
-            note(one.check(i, (scene, held)));
-        } else {
+        let key = format!("observe[{i}]");
+        let is_new = before.insert(show(one));
+        problems.check(&key, || {
+            if is_new {
+                return one.check(&key, scene, held);
+            }
             let rule = "is in the list already";
-            note(Err(SceneProblem::new(format!("observe[{i}]"), "", rule)));
-        }
+            Err(SceneProblem::new(&key, "", rule))
+        });
     }
-    note(check_burn_in(scene));
+    problems.check("burn_in_ns", || check_burn_in(scene));
 }
 
 fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
     let Some(burn_in) = scene.burn_in_ns else {
         return Ok(());
     };
-    non_negative("burn_in_ns", burn_in)?;
     let rule = match scene.task.motion() {
         Some(motion) if motion.thermal.is_none() => {
             "means require thermal noise: omit this key, or write thermal".to_owned()

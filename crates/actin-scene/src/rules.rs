@@ -9,13 +9,6 @@ pub(super) fn show(value: impl Debug) -> String {
     format!("{value:?}")
 }
 
-pub(super) fn finite(key: &str, value: f64) -> Result<(), SceneProblem> {
-    if value.is_finite() {
-        return Ok(());
-    }
-    Err(SceneProblem::new(key, show(value), "must be finite"))
-}
-
 pub(super) fn positive(key: &str, value: f64) -> Result<(), SceneProblem> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
@@ -24,44 +17,6 @@ pub(super) fn positive(key: &str, value: f64) -> Result<(), SceneProblem> {
         key,
         show(value),
         "must be finite and greater than 0",
-    ))
-}
-
-pub(super) fn non_negative(key: &str, value: f64) -> Result<(), SceneProblem> {
-    if value.is_finite() && value >= 0.0 {
-        return Ok(());
-    }
-    Err(SceneProblem::new(
-        key,
-        show(value),
-        "must be finite and not negative",
-    ))
-}
-
-pub(super) fn all_finite(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
-    if values.iter().all(|v| v.is_finite()) {
-        return Ok(());
-    }
-    Err(SceneProblem::new(key, show(values), "must be finite"))
-}
-
-/// Checks that three numbers are finite and not all zero.
-pub(super) fn direction(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
-    all_finite(key, values)?;
-    if values.iter().any(|v| v.abs() > 0.0) {
-        return Ok(());
-    }
-    Err(SceneProblem::new(key, show(values), "must not be zero"))
-}
-
-pub(super) fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
-    if values.iter().all(|v| v.is_finite() && *v > 0.0) {
-        return Ok(());
-    }
-    Err(SceneProblem::new(
-        key,
-        show(values),
-        "each must be finite and greater than 0",
     ))
 }
 

@@ -1,9 +1,11 @@
 //! Scene as written: a single `filament` or a list of `filaments`.
 
+use super::problem::Problems;
+use super::serialize::to_value;
 use super::validate::check_filament;
 use super::{
     Arrangement, Bead, Clamp, Crosslinkers, Filament, Linker, LinkersBetween, Load, Observable,
-    Output, PeriodicBox, Repulsion, Scene, SceneProblem, Stage, Start, Task,
+    Output, PeriodicBox, Repulsion, Scene, SceneProblem, Stage, Start, Task, numbers,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -78,6 +80,14 @@ impl TryFrom<SceneFile> for Scene {
 
     /// Collects the filaments of all keys, then the linkers.
     fn try_from(mut written: SceneFile) -> Result<Self, SceneProblem> {
+        let is_generated = !(written.arrangements.is_empty()
+            && written.linker_sets.is_empty()
+            && written.crosslinkers.is_empty());
+        if is_generated {
+            let mut problems = Problems::new(1);
+            numbers::check(&to_value(&written, false), &mut problems);
+            problems.into_result()?;
+        }
         let mut filaments = listed(
             written.filament.take(),
             written.filaments.take(),
@@ -121,9 +131,14 @@ fn arrange(written: &SceneFile, filaments: &mut Vec<Filament>) -> Result<(), Sce
     for (k, arrangement) in written.arrangements.iter().enumerate() {
         let mut one = arrangement.filament().clone();
         one.monomers.resolve();
-        repulsion.map_or(Ok(()), Repulsion::first_problem)?;
-        periodic.map_or(Ok(()), |periodic| periodic.check_size(contact))?;
-        check_filament(&one, &format!("arrangements[{k}].filament"))?;
+        let mut problems = Problems::new(1);
+        if let Some(repulsion) = repulsion {
+            repulsion.check(&mut problems);
+        }
+        problems.note(periodic.map_or(Ok(()), |periodic| periodic.check_size(contact)));
+        let key = format!("arrangements[{k}].filament");
+        check_filament(&one, &key, &mut problems);
+        problems.into_result()?;
         let arranged = arrangement.filaments(k, filaments, (repulsion, periodic))?;
         filaments.extend(arranged);
     }

@@ -1,6 +1,6 @@
 //! Sections of a filament: listed, chosen by the program, or adapted during a motion.
 
-use super::rules::{positive, show};
+use super::rules::show;
 use super::{AdaptiveResolution, SceneProblem, Section};
 use schemars::JsonSchema;
 use serde::de::value::SeqAccessDeserializer;
@@ -201,20 +201,18 @@ impl Target {
 
 const FEWEST_MONOMERS: usize = 13;
 
-pub(super) fn check_adaptive(adaptive: &Adaptive) -> Result<(), SceneProblem> {
-    positive("filament.sections.length_nm", adaptive.length_nm)?;
+/// Checks automatic sections, whose keys begin with `key`.
+pub(super) fn check_adaptive(key: &str, adaptive: &Adaptive) -> Result<(), SceneProblem> {
     if let Some(few) = adaptive.monomers.filter(|&most| most < FEWEST_MONOMERS) {
         let rule = format!("must be at least {FEWEST_MONOMERS}, a period of the helix");
-        return Err(SceneProblem::new("filament.sections.monomers", few, rule));
+        return Err(SceneProblem::new(format!("{key}.monomers"), few, rule));
     }
     let mut errors = adaptive.targets().map(Target::error);
     let Some(error) = errors.find(|error| !(*error > 0.0 && *error < 1.0)) else {
         return Ok(());
     };
-    let (key, rule) = (
-        "filament.sections.want.error",
-        "must be greater than 0 and below 1",
-    );
+    let rule = "must be greater than 0 and below 1";
+    let key = format!("{key}.want.error");
     Err(SceneProblem::new(key, show(error), rule))
 }
 

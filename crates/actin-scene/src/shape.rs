@@ -1,7 +1,7 @@
 //! Initial shape of a filament and its validation.
 
 use super::curve::Curve;
-use super::rules::{check_curvature, finite, positive, show};
+use super::rules::{check_curvature, show};
 use super::{Filament, SceneProblem};
 use actin_cosserat::constants::cross_section_radius;
 use schemars::JsonSchema;
@@ -63,32 +63,18 @@ pub(super) fn check(filament: &Filament) -> Result<(), SceneProblem> {
     if filament.sections.is_empty() {
         return Ok(());
     }
-    let key = |name: &str| format!("filament.shape.{name}");
     let length = filament.length_nm();
     match shape {
-        Shape::Arc {
-            radius_nm,
-            azimuth_deg,
-        } => {
-            positive(&key("radius_nm"), *radius_nm)?;
-            finite(&key("azimuth_deg"), *azimuth_deg)?;
-            check_curvature(&key("radius_nm"), show(radius_nm), radius_nm.recip())?;
-            check_open(
-                &key("radius_nm"),
-                show(radius_nm),
-                (length, TAU * radius_nm),
-            )?;
+        Shape::Arc { radius_nm, .. } => {
+            let key = "filament.shape.radius_nm";
+            check_curvature(key, show(radius_nm), radius_nm.recip())?;
+            check_open(key, show(radius_nm), (length, TAU * radius_nm))?;
         }
         Shape::Helix {
             radius_nm,
             pitch_nm,
-            azimuth_deg,
-        } => {
-            positive(&key("radius_nm"), *radius_nm)?;
-            finite(&key("pitch_nm"), *pitch_nm)?;
-            finite(&key("azimuth_deg"), *azimuth_deg)?;
-            check_helix(length, *radius_nm, *pitch_nm)?;
-        }
+            ..
+        } => check_helix(length, *radius_nm, *pitch_nm)?,
         Shape::Points { nm, file } => check_points(nm, file.as_deref())?,
         Shape::AtRest => {}
     }
@@ -136,7 +122,6 @@ fn check_points(nm: &[[f64; 3]], file: Option<&str>) -> Result<(), SceneProblem>
         return Err(SceneProblem::new(key, "", rule));
     }
     for (i, point) in nm.iter().enumerate() {
-        super::rules::all_finite(&format!("{key}[{i}]"), *point)?;
         let is_before =
             |other: &[f64; 3]| other.iter().zip(point).all(|(a, b)| (a - b).abs() <= 0.0);
         if i > 0 && is_before(&nm[i - 1]) {

@@ -1,6 +1,6 @@
 //! Thermal noise and its validation.
 
-use super::{Dynamics, Scene, SceneProblem, Task, rules};
+use super::{Dynamics, Scene, SceneProblem, Task};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -45,10 +45,9 @@ impl Scene {
 }
 
 pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
-    let Some(thermal) = &dynamics.thermal else {
+    if dynamics.thermal.is_none() {
         return Ok(());
-    };
-    rules::positive("task.thermal.temperature_k", thermal.temperature_k)?;
+    }
     let drag = dynamics.drag.rates();
     let rates = [
         ("translational_per_ns", drag.translational_per_ns),
