@@ -12,7 +12,6 @@ const LEAST_MONOMERS: f64 = 8.0;
 /// requires it, and becomes a rod again if none does. Between the two thresholds of a criterion a cell keeps
 /// its model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 #[serde(rename = "Following")]
 pub struct AdaptiveResolution {
     /// Length of the filament; positive. It is rounded to a whole number of monomers.
@@ -47,7 +46,6 @@ fn default_least() -> f64 {
 
 /// Criterion for resolving a cell into monomers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 #[serde(rename = "Where")]
 pub enum RefinementCriterion {
     /// Mean curvature of the cell.

@@ -25,7 +25,6 @@ const PARTS: u32 = 100;
 ///
 /// The resolved scene lists each filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub(crate) enum Arrangement {
     /// Copies of a filament at equal displacements.
     Copies {

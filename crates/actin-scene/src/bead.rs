@@ -11,7 +11,6 @@ use serde::{Deserialize, Serialize};
 /// and `r` the radius. The friction of the filament is added. A bead has no mass and no contacts, and does not change
 /// equilibria.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Bead {
     /// Centre of the bead, which may be off the axis of the filament.
     pub site: LinkerSite,

@@ -13,7 +13,6 @@ const NS_PER_MS: f64 = 1e6;
 /// Overdamped motion in a fluid, with steps that are implicit in the stiffness. Inertia is neglected: recorded
 /// velocities are zero. Rods require `EnergyGradient`. Loads that rotate with the filament are refused.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Brownian {
     /// Simulated time; positive, at least the duration of the path.
     pub duration_ms: f64,
@@ -58,7 +57,7 @@ pub enum Fluid {
 /// A viscous fluid. Its drag is anisotropic and local: the drag of a cylinder of the filament's length,
 /// distributed uniformly (Tirado, Lopez Martinez and Garcia de la Torre 1984).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 pub struct Water {
     /// Viscosity; positive. The default is the viscosity of water at 25 degrees C.
     pub viscosity_mpa_s: f64,
@@ -71,7 +70,6 @@ pub struct Water {
 
 /// Model of the interfaces between monomers in overdamped motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum Interfaces {
     /// Bonds. Their fastest relaxation time is 0.1 ps: a microsecond takes ten million steps.
     #[default]

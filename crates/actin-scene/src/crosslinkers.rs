@@ -22,7 +22,6 @@ const MOST: usize = 1_000_000;
 ///
 /// In a scene in memory, each crosslinker is a linker with `kinetics`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub(crate) struct Crosslinkers {
     /// Number of crosslinkers; from 1 to a million.
     pub count: usize,

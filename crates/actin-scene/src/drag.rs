@@ -8,7 +8,6 @@ use serde::{Deserialize, Deserializer, Serialize};
 /// Numerical damping, proportional to mass: velocities decay as `exp(-rate t)`. Physical drag follows from the
 /// viscosity of `Water`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 #[serde(rename = "Drag")]
 pub struct DragRates {
     /// Damping rate of velocities; at least 0.

@@ -8,7 +8,6 @@ use std::f64::consts::TAU;
 
 /// Time-dependent factor of a load, in `Dynamics` and `Brownian`. It multiplies the factor that the path sets.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum Factor {
     /// 1 at all times.
     #[default]

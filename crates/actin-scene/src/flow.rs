@@ -16,7 +16,6 @@ const PERPENDICULAR: f64 = 1e-6;
 
 /// Flow of the fluid (lab frame).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum Flow {
     /// Fluid at rest.
     #[default]

@@ -12,7 +12,6 @@ const LARGEST: f64 = 0.01;
 /// It breaks the symmetry of a straight filament, which otherwise stays straight under any compression. The rest
 /// shape stays straight: equilibria equal the equilibria of the perfect filament.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Imperfection {
     /// Largest displacement of the axis; positive, at most a hundredth of the length.
     pub amplitude_nm: f64,

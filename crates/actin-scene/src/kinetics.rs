@@ -18,7 +18,6 @@ const AVERAGED: f64 = 0.1;
 /// h/2`. Below, `f` is the tension of the linker, or 0 in compression, averaged over `averaging_ns`. Thermal
 /// fluctuations that are faster do not change rates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Kinetics {
     /// Seed of the events. They depend only on the seed, the number of the step and the index of the linker.
     pub seed: u64,
@@ -51,7 +50,6 @@ pub struct Kinetics {
 /// detailed balance holds. With `averaging_ns: 0`, binding has the factor of `breaks` at the present tension, and
 /// detailed balance holds under any load. `at_nm` and `to` do not apply.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Roaming {
     /// Rate at which a free linker attaches one hand; positive.
     pub attach_per_ns: f64,
@@ -61,7 +59,6 @@ pub struct Roaming {
 
 /// Breaking at the rate `k exp(f/F)` (Bell), plus the rate of a catch bond.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Breaking {
     /// Rate `k` without force; positive.
     pub rate_per_ns: f64,
@@ -75,7 +72,6 @@ pub struct Breaking {
 
 /// Catch bond: breaking at the rate `k exp(-f/F)`, in addition to the rate of `Breaking`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Catch {
     /// Rate `k` without force; positive.
     pub rate_per_ns: f64,
@@ -90,7 +86,6 @@ pub struct Catch {
 /// heat bath is therefore not thermal equilibrium, and events exchange energy with the filament
 /// (`events_pn_nm`). `Roaming` has a rate that depends on the energy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Forming {
     /// Rate within reach; positive.
     pub rate_per_ns: f64,
@@ -101,7 +96,6 @@ pub struct Forming {
 /// Stepping of a bound site at the rate `k (1 - f/F)`, limited to 0 to `k`. Here `f` is the resisting force of the
 /// linker along the filament.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Stepping {
     /// Step length along the filament; not zero, negative towards the start. The first site is `at_nm`.
     pub step_nm: f64,

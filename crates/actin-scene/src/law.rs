@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 /// Constitutive law of a rod. `Homogenised` is the best approximation of filaments of monomers. Laws marked "to
 /// reproduce the paper" are for its figures.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum RodLaw {
     /// One potential of all strains: the energy of cells of monomers of the mean filament or, with sampled
     /// bonds, the mean over samples. In a heat bath of 273 to 323 K it is the free energy of the mean
@@ -74,7 +73,7 @@ impl RodLaw {
 
 /// Laws for single deformations.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 pub struct RodLaws {
     /// Law of bending.
     pub bend: Option<BendLaw>,

@@ -10,7 +10,6 @@ use serde::{Deserialize, Serialize};
 /// A site has an arc length, a distance from the axis and an azimuth in the filament as built, independent of the
 /// model at the site. Exactly one of `to`, `anchor_nm` and `displaced_nm` defines the other end.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Linker {
     /// Index of the filament.
     #[serde(default)]
@@ -57,7 +56,7 @@ pub struct Linker {
 
 /// Site of a linker on a filament.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename = "Site")]
+#[serde(rename = "Site")]
 pub struct LinkerSite {
     /// Index of the filament.
     #[serde(default)]

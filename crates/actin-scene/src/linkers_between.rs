@@ -19,7 +19,6 @@ pub(super) const MOST_SITES: f64 = 1e7;
 ///
 /// The resolved scene lists each linker.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub(crate) struct LinkersBetween {
     /// Number of linkers divided by the number of filaments; positive.
     pub per_filament: f64,

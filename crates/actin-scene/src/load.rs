@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 
 /// Load on a filament. The path multiplies `factor` by its own load factor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum Load {
     /// Constant force on an end: on the last node of a rod, or half on each of the last two monomers. At a sliding
     /// end it acts on the inner held body. `Force` has more options.
@@ -34,7 +33,6 @@ pub enum Load {
 
 /// Force at one position of a filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Force {
     /// Index of the filament.
     #[serde(default)]
@@ -60,7 +58,6 @@ pub struct Force {
 
 /// Couple at one position of a filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Couple {
     /// Index of the filament.
     #[serde(default)]
@@ -89,7 +86,6 @@ pub struct Couple {
 
 /// Force per length of the filament at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct ForcePerLength {
     /// Index of the filament.
     #[serde(default)]
@@ -112,7 +108,6 @@ pub struct ForcePerLength {
 
 /// Couple per length of the filament at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct CouplePerLength {
     /// Index of the filament.
     #[serde(default)]
@@ -135,7 +130,6 @@ pub struct CouplePerLength {
 
 /// Force proportional to mass: weight, or the inertial force in an accelerated frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Acceleration {
     /// Index of the filament.
     #[serde(default)]

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// Parameters of the monomers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 pub struct Monomers {
     /// Seed of sampled bonds. Must be omitted with `Cubature`.
     pub seed: u64,
@@ -78,7 +78,7 @@ fn by_anchors() -> usize {
 
 /// Parameters of the rod.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 pub struct RodModel {
     /// Force law. `PaperBalance` requires the law `Constant` or `PublishedExtension`.
     pub force_law: ForceLaw,
@@ -124,7 +124,6 @@ pub enum ForceLaw {
 
 /// Rigidities of the rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum Material {
     /// Table 4 of the paper.
     #[default]
@@ -142,7 +141,7 @@ pub enum Material {
 
 /// Parameters of the junctions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 pub struct JunctionModel {
     /// Weight of each bond.
     pub weight: JunctionWeight,

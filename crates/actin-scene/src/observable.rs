@@ -14,7 +14,6 @@ const BURN_IN: f64 = 0.2;
 /// Names of columns begin with the quantity and the index of the filament or linker, and end with the unit:
 /// `tip[0]_x_nm`. Components are in the lab frame unless stated otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum Observable {
     /// Position of an end: `tip[0]_x_nm`, for the other end `start[0]_x_nm`. For monomers it is the mean of the
     /// outermost two.
@@ -180,7 +179,7 @@ fn last() -> End {
 
 /// Optional output files of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 pub struct Output {
     /// True if pictures are written: `vtk` and `run.pvd`.
     pub vtk: bool,

@@ -13,7 +13,6 @@ use serde::{Deserialize, Serialize};
 /// A shear strain displaces the images along x in proportion to their distance along z, and so does the fluid of
 /// `Brownian`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct PeriodicBox {
     /// Edges along x, y and z; positive.
     pub size_nm: [f64; 3],

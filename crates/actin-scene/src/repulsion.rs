@@ -23,7 +23,7 @@ const STIFFNESS_PN_PER_NM: f64 = 1000.0;
 /// or closer than half of it at any time: they would pass through each other. `Equilibrium` rejects such steps.
 /// A wall exerts the force per length `k p^3/(6 R^3)` on a filament whose surface penetrates it by `p`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 pub struct Repulsion {
     /// True if filaments repel each other. Parts of the same filament repel each other if their distance along
     /// it is at least three segments, three rises and `pi R`. `false` requires a wall.
@@ -45,7 +45,6 @@ pub struct Repulsion {
 
 /// Plane wall.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Plane {
     /// Point of the plane (lab frame); finite.
     pub at_nm: [f64; 3],
@@ -55,7 +54,6 @@ pub struct Plane {
 
 /// Spherical wall.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Sphere {
     /// Centre (lab frame); finite.
     pub at_nm: [f64; 3],
@@ -67,7 +65,6 @@ pub struct Sphere {
 
 /// Cylindrical wall of infinite length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Cylinder {
     /// Point of the axis (lab frame); finite.
     pub at_nm: [f64; 3],
@@ -81,7 +78,6 @@ pub struct Cylinder {
 
 /// Box of six plane walls around the filaments.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Cuboid {
     /// Centre (lab frame); finite.
     pub at_nm: [f64; 3],

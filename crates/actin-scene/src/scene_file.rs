@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, clamps, loads, linkers and a task.
 #[derive(Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename = "Scene")]
+#[serde(rename = "Scene")]
 pub(super) struct SceneFile {
     /// Title of the scene.
     #[serde(default)]

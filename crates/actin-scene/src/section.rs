@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 
 /// Section of a filament with one resolution.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum Section {
     /// Monomers as rigid ellipsoids. Boundaries are moved to the nearest position half a rise after a monomer.
     Ellipsoids {
@@ -40,7 +39,7 @@ pub enum Section {
 
 /// Parameters of a rod that differ from `rod` of the filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 #[serde(rename = "AlteredRod")]
 pub struct RodChanges {
     /// Constitutive law; by default the law of the filament.
@@ -107,7 +106,7 @@ impl RodChanges {
 /// twisting 5 times at small twist, 7 times in over-twist and 13 times in under-twist at 0.01 rad/nm. At 298 K,
 /// factors of 0.02 and 0.45 have the measured ratio of persistence lengths with and without cofilin, 0.22.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 #[serde(rename = "Altered")]
 pub struct MonomerChanges {
     /// Factor of the rigidity of lateral interfaces; positive.

@@ -42,7 +42,6 @@ enum AutoSections {
 /// monomers the choice is monomers everywhere, since the measured errors require this run. Not available with
 /// thermal noise.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Adaptive {
     /// Length of the filament; positive. It is rounded to a whole number of monomers.
     pub length_nm: f64,
@@ -66,7 +65,6 @@ impl Adaptive {
 
 /// Target quantity of the equilibrium, with its largest relative error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 #[serde(rename = "Want")]
 pub enum Target {
     /// Displacement of the end of the filament.
@@ -112,7 +110,6 @@ pub enum Target {
 
 /// Quantity of an equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum Quantity {
     /// Displacement of the end of the filament (nm).
     Tip,

@@ -14,7 +14,6 @@ use std::f64::consts::TAU;
 /// Cross-sections follow the curve (parallel transport), from `roll_deg` at the start, and have the rest twist of
 /// the sections.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum Shape {
     /// Arc of a circle that starts along `direction`; shorter than the full circle.
     Arc {

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 /// Initial state of a run. Linkers, loads and stages begin as in the scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum Start {
     /// Last state of a finished run with the same sections, for example to continue an equilibrium as a motion.
     /// `Dynamics` after `Dynamics` keeps the velocities. Clamped ends stay where that run left them, and stages

@@ -13,7 +13,6 @@ pub const BOLTZMANN_PN_NM_PER_K: f64 = 0.013_806_49;
 /// Thermal noise, in balance with drag at a temperature. It depends only on the seed, the number of the step
 /// and the index of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Thermal {
     /// Temperature; positive.
     pub temperature_k: f64,

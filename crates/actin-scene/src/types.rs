@@ -75,7 +75,6 @@ impl Scene {
 /// Shifts and turns start at zero. A load that any stage sets starts at factor 0. A path that sets loads must
 /// set all loads without a `factor`. Along other paths loads act in full from the start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Stage {
     /// Target values at the end of the stage. The last setting of a control counts.
     pub set: Vec<Setting>,
@@ -101,7 +100,6 @@ pub enum TimeCourse {
 
 /// Value of a control at the end of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub enum Setting {
     /// Factor of a load.
     LoadFactor {
@@ -150,7 +148,6 @@ pub enum Setting {
 
 /// A filament: sections, parameters of their models, and position.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Filament {
     /// Sections in order of arc length, at least one. The first starts at 0, and each other at the end of the
     /// previous one. Adjacent sections differ in kind or in `altered`. Write `Adaptive(..)` for an automatic
@@ -199,7 +196,6 @@ pub enum End {
 
 /// Clamped end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Clamp {
     /// Index of the filament.
     #[serde(default)]
@@ -234,7 +230,6 @@ impl Clamp {
 /// is `(k_b (theta_1^2 + theta_2^2) + k_t theta_3^2) / 2`. Here `theta` is the rotation vector between them,
 /// with the third component along the filament. A run fails if the angle reaches half a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Hinge {
     /// Stiffness `k_b` of rotation about transverse axes; positive.
     pub bend_pn_nm_per_rad: f64,
@@ -286,7 +281,7 @@ pub enum Task {
 
 /// Equilibrium, or equilibria along the path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 pub struct Equilibrium {
     /// Tolerance of the residual force on a free body; positive, below half of every load.
     pub force_pn: f64,
@@ -335,7 +330,6 @@ impl Default for Equilibrium {
 
 /// Motion with inertia, with optional drag.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct Dynamics {
     /// Simulated time; positive, at least the duration of the path. The run ends earlier if `stop` is met.
     pub duration_ns: f64,
@@ -422,7 +416,6 @@ pub enum Integrator {
 
 /// Tolerances of rest. The motion stops when all three are met.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 #[serde(rename = "StopRule")]
 pub struct StopTolerances {
     /// Largest force on a free body; positive, below half of every load.
