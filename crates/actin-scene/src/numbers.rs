@@ -3,103 +3,30 @@
 use super::problem::Problems;
 use super::tree::{Kind, SceneValue};
 use super::{SceneProblem, rules::show};
+use std::collections::HashMap;
+use std::sync::LazyLock;
 
 const LARGEST: f64 = 1e60;
 
 const SMALLEST: f64 = 1e-60;
 
-#[derive(Clone, Copy)]
-enum NumberRule {
-    /// Rule of a constitutive law, which the law checks itself.
-    Law,
-    Finite,
-    Positive,
-    NonNegative,
-    /// Vector that is not zero.
-    Direction,
-}
+/// Rules of numbers by the key of their structure and their own key, each of which may be `any`. All other numbers
+/// must be finite. Constitutive laws check their own numbers (`law`).
+static RULES: LazyLock<HashMap<(&str, &str), &str>> = LazyLock::new(|| {
+    let lines = include_str!("number_rules.csv").lines().skip(1);
+    let row = |line: &'static str| {
+        let (structure, rest) = line.split_once(',')?;
+        let (key, rule) = rest.split_once(',')?;
+        Some(((structure, key), rule))
+    };
+    lines.filter_map(row).collect()
+});
 
-/// Returns the rule of the numbers at `key` of the structure at the key `parent`.
-fn rule(parent: &str, key: &str) -> NumberRule {
-    match (parent, key) {
-        ("bend" | "over" | "shear" | "stretch" | "twist" | "twist_stretch" | "under", _) => {
-            NumberRule::Law
-        }
-        ("linkers" | "linker_sets" | "crosslinkers" | "to" | "site", "radius_nm")
-        | ("sections", "from_nm")
-        | ("task", "temperature_k")
-        | (
-            _,
-            "apart_nm"
-            | "averaging_ns"
-            | "box_nm"
-            | "burn_in_ns"
-            | "least_reach_nm"
-            | "min_bond_nm"
-            | "rest_length_nm"
-            | "rotational_per_ns"
-            | "stagger_nm"
-            | "tilt_pn_nm"
-            | "translational_per_ns"
-            | "twist_pn_nm",
-        ) => NumberRule::NonNegative,
-        ("arrangements", "shift_nm")
-        | (_, "across" | "along" | "axis" | "direction" | "normal") => NumberRule::Direction,
-        ("task", "duration_ns" | "force_pn" | "torque_pn_nm")
-        | ("stop", "force_pn" | "torque_pn_nm" | "kinetic_pn_nm")
-        | ("breaks" | "unbinds" | "catch", "force_pn")
-        | ("factor", "duration_ns")
-        | (
-            _,
-            "amplitude_nm"
-            | "attach_per_ns"
-            | "bend_pn_nm2"
-            | "bend_pn_nm_per_rad"
-            | "bend_rigidity_factor"
-            | "bind_per_ns"
-            | "cell_nm"
-            | "duration_ms"
-            | "largest_step"
-            | "lag_ns"
-            | "lateral_max_bond_nm"
-            | "lateral_rigidity_factor"
-            | "lateral_rigidity_pn_per_nm"
-            | "least_ns"
-            | "length_nm"
-            | "lengths_nm"
-            | "longitudinal_max_bond_nm"
-            | "longitudinal_rigidity_factor"
-            | "longitudinal_rigidity_pn_per_nm"
-            | "mass_ag"
-            | "mass_factor"
-            | "over_nm"
-            | "per_filament"
-            | "period_ns"
-            | "radius_nm"
-            | "rate_per_ns"
-            | "reach_nm"
-            | "record_every_ns"
-            | "rise_nm"
-            | "sampled_ns"
-            | "semi_axes_nm"
-            | "shear_pn"
-            | "shear_rigidity_factor"
-            | "site_spacing_nm"
-            | "size_nm"
-            | "smallest_step"
-            | "spacing_nm"
-            | "stall_pn"
-            | "step_safety"
-            | "stiffness_pn_per_nm"
-            | "stretch_rigidity_factor"
-            | "temperature_k"
-            | "time_step_ns"
-            | "twist_pn_nm_per_rad"
-            | "twist_rigidity_factor"
-            | "viscosity_mpa_s",
-        ) => NumberRule::Positive,
-        _ => NumberRule::Finite,
-    }
+/// Returns the rule of the numbers at `key` of the structure at the key `structure`.
+fn rule(structure: &str, key: &str) -> &'static str {
+    let names = [(structure, key), (structure, "any"), ("any", key)];
+    let mut rules = names.iter().filter_map(|name| RULES.get(name));
+    rules.next().unwrap_or(&"finite")
 }
 
 /// Checks all numbers of a scene or of a scene file.
@@ -136,18 +63,14 @@ fn numbers(value: &SceneValue) -> Option<Vec<f64>> {
     }
 }
 
-fn check_numbers(path: &str, numbers: &[f64], rule: NumberRule) -> Result<(), SceneProblem> {
+fn check_numbers(path: &str, numbers: &[f64], rule: &str) -> Result<(), SceneProblem> {
     let all = |is_valid: fn(f64) -> bool| numbers.iter().all(|x| x.is_finite() && is_valid(*x));
     let each = if numbers.len() > 1 { "each " } else { "" };
     let rule = match rule {
-        NumberRule::Positive if !all(|x| x > 0.0) => {
-            format!("{each}must be finite and greater than 0")
-        }
-        NumberRule::NonNegative if !all(|x| x >= 0.0) => {
-            format!("{each}must be finite and not negative")
-        }
-        NumberRule::Direction if all(|x| x == 0.0) => "must not be zero".to_owned(),
-        NumberRule::Law => return check_magnitudes(path, numbers),
+        "positive" if !all(|x| x > 0.0) => format!("{each}must be finite and greater than 0"),
+        "not negative" if !all(|x| x >= 0.0) => format!("{each}must be finite and not negative"),
+        "direction" if all(|x| x == 0.0) => "must not be zero".to_owned(),
+        "law" => return check_magnitudes(path, numbers),
         _ if !all(|_| true) => "must be finite".to_owned(),
         _ => return check_magnitudes(path, numbers),
     };
@@ -169,4 +92,39 @@ fn check_magnitudes(path: &str, numbers: &[f64]) -> Result<(), SceneProblem> {
     let path = format!("{path}{}", index.unwrap_or_default());
     let rule = format!("numbers are 0 or have magnitudes from {SMALLEST:e} to {LARGEST:e}");
     Err(SceneProblem::new(path, show(numbers[i]), rule))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::Value;
+    use std::collections::HashSet;
+
+    fn collect(schema: &Value, keys: &mut HashSet<String>) {
+        match schema {
+            Value::Object(all) => {
+                let properties = all.get("properties").and_then(Value::as_object);
+                keys.extend(properties.into_iter().flatten().map(|(key, _)| key.clone()));
+                all.values().for_each(|one| collect(one, keys));
+            }
+            Value::Array(all) => all.iter().for_each(|one| collect(one, keys)),
+            _ => {}
+        }
+    }
+
+    #[test]
+    fn rules_are_known_and_belong_to_keys_of_scenes() {
+        let mut keys = HashSet::from(["any".to_owned()]);
+        collect(&crate::schema(), &mut keys);
+        let rows = include_str!("number_rules.csv").lines().count() - 1;
+        assert_eq!(RULES.len(), rows);
+        for ((structure, key), rule) in RULES.iter() {
+            assert!(
+                keys.contains(*structure) && keys.contains(*key),
+                "{structure}, {key}"
+            );
+            let known = ["direction", "law", "not negative", "positive"];
+            assert!(known.contains(rule), "{rule}");
+        }
+    }
 }
