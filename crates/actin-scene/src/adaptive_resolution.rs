@@ -1,6 +1,6 @@
 //! Adaptive resolution during a motion: cells resolved into monomers where needed.
 
-use super::rules::show;
+use super::rules::{check_index, show};
 use super::{Hold, Scene, SceneProblem, Task};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -145,11 +145,9 @@ fn check_where(
     key: &str,
     criterion: &RefinementCriterion,
 ) -> Result<(), SceneProblem> {
-    if let RefinementCriterion::Linker { linker, .. } = *criterion
-        && linker >= scene.linkers.len()
-    {
-        let rule = format!("the scene has {} linker(s)", scene.linkers.len());
-        return Err(SceneProblem::new(format!("{key}.linker"), linker, rule));
+    if let RefinementCriterion::Linker { linker, .. } = *criterion {
+        let count = scene.linkers.len();
+        check_index(&format!("{key}.linker"), "linker", linker, count)?;
     }
     if let RefinementCriterion::LargestEnergy { above, .. } = *criterion
         && above > 1.0

@@ -157,11 +157,8 @@ pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
             let rule = format!(
                 "must be at most {MOST_SAMPLED_NS:?}: 400 ns determine each stiffness to 2 %"
             );
-            return Err(SceneProblem::new(
-                "task.interfaces.sampled_ns",
-                sampled_ns,
-                rule,
-            ));
+            let key = "task.interfaces.sampled_ns";
+            return Err(SceneProblem::new(key, sampled_ns, rule));
         }
         if brownian.temperature_k == 0.0 {
             let rule = "QuasiHarmonic interfaces require a temperature above 0: write a temperature, or Bonds";
@@ -181,11 +178,8 @@ impl Fluid {
             let rule = format!(
                 "a length of {length} nm is less than {LEAST_RATIO} diameters of {diameter} nm"
             );
-            Err(SceneProblem::new(
-                "task.drag.radius_nm",
-                show(radius_nm),
-                rule,
-            ))
+            let key = "task.drag.radius_nm";
+            Err(SceneProblem::new(key, show(radius_nm), rule))
         })
     }
 }

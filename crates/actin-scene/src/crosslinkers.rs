@@ -72,31 +72,26 @@ impl Crosslinkers {
     ) -> Result<Vec<Linker>, SceneProblem> {
         self.check(k, filaments)?;
         let length = filaments.first().map_or(0.0, Filament::length_nm);
-        let site = LinkerSite {
+        let last = self.site(length);
+        Ok(vec![self.linker(Some(last)); self.count])
+    }
+
+    fn site(&self, at_nm: f64) -> LinkerSite {
+        LinkerSite {
             filament: 0,
-            at_nm: length,
+            at_nm,
             radius_nm: self.radius_nm,
             azimuth_deg: 0.0,
-        };
-        Ok(vec![self.linker(Some(site)); self.count])
+        }
     }
 
     /// A free crosslinker of the pool.
     fn linker(&self, to: Option<LinkerSite>) -> Linker {
         Linker {
-            filament: 0,
-            at_nm: 0.0,
-            radius_nm: self.radius_nm,
-            azimuth_deg: 0.0,
             to,
-            anchor_nm: None,
-            image: [0; 3],
-            displaced_nm: None,
-            stiffness_pn_per_nm: self.stiffness_pn_per_nm,
             rest_length_nm: self.rest_length_nm,
-            tilt_pn_nm: 0.0,
-            twist_pn_nm: 0.0,
             kinetics: Some(self.kinetics()),
+            ..Linker::new(self.site(0.0), self.stiffness_pn_per_nm)
         }
     }
 

@@ -1,6 +1,7 @@
 //! Drag of motion with inertia: numerical damping or a fluid.
 
 use super::brownian::{Fluid, Water};
+use super::rules::show;
 use super::{Dynamics, Integrator, SceneProblem};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -68,11 +69,8 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
         return Ok(());
     }
     let rule = "is not used with Water, which has its own integrator (Gronbech-Jensen and Farago): omit this key";
-    Err(SceneProblem::new(
-        "task.integrator",
-        format!("{:?}", dynamics.integrator),
-        rule,
-    ))
+    let integrator = show(dynamics.integrator);
+    Err(SceneProblem::new("task.integrator", integrator, rule))
 }
 
 /// Reads keys without a name as `Drag`.

@@ -74,11 +74,8 @@ impl Flow {
             "must be at most {:e}: the fluid may turn by {LARGEST_TURN} rad in a step of {step_ns:e} ns",
             LARGEST_TURN / step_ns / PER_S
         );
-        Err(SceneProblem::new(
-            "task.flow.rate_per_s",
-            show(rate_per_s),
-            rule,
-        ))
+        let key = "task.flow.rate_per_s";
+        Err(SceneProblem::new(key, show(rate_per_s), rule))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Rates of breaking, forming and stepping of linkers, and their validation.
 
 use super::rules::show;
-use super::{Dynamics, Linker, Scene, SceneProblem, Task};
+use super::{Linker, Scene, SceneProblem, Task};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -238,26 +238,6 @@ fn check_pool(scene: &Scene, linker: &Linker, key: &str) -> Result<(), SceneProb
     if is_first && scene.thermal_energy_pn_nm() <= 0.0 {
         let rule = "the rate of binding depends on the temperature: write a positive temperature_k or thermal";
         return Err(SceneProblem::new(key, "", rule));
-    }
-    Ok(())
-}
-
-/// Refuses `stop` and `leave_saddles` in scenes with random linker events.
-pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProblem> {
-    let Some(i) = scene.linkers.iter().position(|l| l.kinetics.is_some()) else {
-        return Ok(());
-    };
-    let rule = |key: &str| {
-        format!(
-            "linkers[{i}] breaks, forms or steps at random, so that the filament never comes to rest: omit {key}"
-        )
-    };
-    if dynamics.stop.is_some() {
-        return Err(SceneProblem::new("task.stop", "", rule("stop")));
-    }
-    if dynamics.leave_saddles > 0 {
-        let (key, value) = ("task.leave_saddles", dynamics.leave_saddles);
-        return Err(SceneProblem::new(key, value, rule("leave_saddles")));
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Linkers and their validation.
 
-use super::rules::show;
+use super::rules::{check_on_filament, show};
 use super::{Kinetics, Scene, SceneProblem, kinetics};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -84,6 +84,25 @@ fn is_origin(image: &[i32; 3]) -> bool {
 }
 
 impl Linker {
+    /// Creates a linker at a site with this stiffness (pN/nm) and rest length 0, without another end.
+    pub fn new(site: LinkerSite, stiffness_pn_per_nm: f64) -> Self {
+        Self {
+            filament: site.filament,
+            at_nm: site.at_nm,
+            radius_nm: site.radius_nm,
+            azimuth_deg: site.azimuth_deg,
+            to: None,
+            anchor_nm: None,
+            image: [0; 3],
+            displaced_nm: None,
+            stiffness_pn_per_nm,
+            rest_length_nm: 0.0,
+            tilt_pn_nm: 0.0,
+            twist_pn_nm: 0.0,
+            kinetics: None,
+        }
+    }
+
     /// Returns the site at the first end.
     pub fn site(&self) -> LinkerSite {
         LinkerSite {
@@ -159,11 +178,8 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     ];
     for (name, value) in ends {
         if let Some(value) = value.filter(|_| name != first) {
-            return Err(SceneProblem::new(
-                format!("linkers[{i}].{name}"),
-                show(value),
-                rule(),
-            ));
+            let key = format!("linkers[{i}].{name}");
+            return Err(SceneProblem::new(key, show(value), rule()));
         }
     }
     if linker.to.is_none() && linker.anchor().is_none() {
@@ -176,11 +192,5 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
 /// Checks a site. Its keys begin with `key`.
 pub(super) fn check_site(scene: &Scene, key: &str, site: &LinkerSite) -> Result<(), SceneProblem> {
     let filament = scene.named_filament(&format!("{key}.filament"), site.filament)?;
-    let length = filament.length_nm();
-    if (0.0..=length).contains(&site.at_nm) {
-        return Ok(());
-    }
-    let rule = format!("must lie on the filament, from 0 to {length:?}");
-    let key = format!("{key}.at_nm");
-    Err(SceneProblem::new(key, show(site.at_nm), rule))
+    check_on_filament(&format!("{key}.at_nm"), site.at_nm, filament.length_nm())
 }

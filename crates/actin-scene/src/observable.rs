@@ -1,7 +1,7 @@
 //! Observables and output files of a scene, and their validation.
 
 use super::problem::Problems;
-use super::rules::show;
+use super::rules::{check_index, check_on_filament, show};
 use super::{ClampedEnds, End, Linker, Scene, SceneProblem, Section};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -248,16 +248,15 @@ impl Observable {
                 let rule = "must be from 4 to 10000";
                 Err(SceneProblem::new(key("points"), points, rule))
             }
-            Self::Linker { linker } => check_linker(scene, &key("linker"), linker),
+            Self::Linker { linker } => {
+                check_index(&key("linker"), "linker", linker, scene.linkers.len())
+            }
             Self::Curvature { at_nm, .. }
             | Self::Twist { at_nm, .. }
             | Self::Strain { at_nm, .. }
             | Self::InternalLoad {
                 at_nm: Some(at_nm), ..
-            } if !(0.0..=length).contains(&at_nm) => {
-                let rule = format!("must lie on the filament, from 0 to {length:?}");
-                Err(SceneProblem::new(key("at_nm"), show(at_nm), rule))
-            }
+            } => check_on_filament(&key("at_nm"), at_nm, length),
             Self::SquaredDisplacement {
                 lag_ns: Some(lag), ..
             } => check_lag(scene, &key("lag_ns"), lag),
@@ -269,16 +268,6 @@ impl Observable {
             _ => Ok(()),
         }
     }
-}
-
-pub(super) fn check_linker(scene: &Scene, key: &str, linker: usize) -> Result<(), SceneProblem> {
-    let rule = match scene.linkers.len() {
-        count if linker < count => return Ok(()),
-        0 => "the scene has no linkers".to_owned(),
-        1 => "the only linker has index 0".to_owned(),
-        count => format!("there are {count} linkers, counted from 0"),
-    };
-    Err(SceneProblem::new(key, linker, rule))
 }
 
 fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> {

@@ -188,12 +188,8 @@ fn check_image(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProb
         return Ok(());
     }
     let refused = |rule: &str| {
-        let value = format!("{:?}", linker.image);
-        Err(SceneProblem::new(
-            format!("linkers[{i}].image"),
-            value,
-            rule,
-        ))
+        let key = format!("linkers[{i}].image");
+        Err(SceneProblem::new(key, show(linker.image), rule))
     };
     match (&scene.periodic, &linker.to) {
         (None, _) => refused("requires a periodic box: write periodic, or omit this key"),

@@ -222,6 +222,11 @@ impl Sections {
         }
     }
 
+    /// Returns whether the program chooses the sections.
+    pub(crate) fn is_automatic(&self) -> bool {
+        self.automatic.is_some()
+    }
+
     /// Makes the sections follow a motion.
     #[must_use]
     pub fn with_following(self, following: AdaptiveResolution) -> Self {

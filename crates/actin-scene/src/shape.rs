@@ -101,11 +101,8 @@ fn check_helix(length: f64, radius: f64, pitch: f64) -> Result<(), SceneProblem>
         let rule = format!(
             "neighbouring turns are {distance:.1} nm apart, less than the filament's diameter of {diameter:.1} nm"
         );
-        return Err(SceneProblem::new(
-            "filament.shape.pitch_nm",
-            show(pitch),
-            rule,
-        ));
+        let key = "filament.shape.pitch_nm";
+        return Err(SceneProblem::new(key, show(pitch), rule));
     }
     Ok(())
 }

@@ -154,11 +154,9 @@ pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Sce
     }
     let whole: f64 = scene.path.iter().filter_map(|s| s.duration_ns).sum();
     if whole > duration_ns {
-        return Err(SceneProblem::new(
-            "task.duration_ns",
-            show(duration_ns),
-            format!("must be at least the duration of the path, {whole:?}"),
-        ));
+        let rule = format!("must be at least the duration of the path, {whole:?}");
+        let key = "task.duration_ns";
+        return Err(SceneProblem::new(key, show(duration_ns), rule));
     }
     Ok(())
 }

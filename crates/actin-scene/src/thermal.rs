@@ -54,19 +54,10 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     ];
     for (name, rate) in rates {
         if rate == 0.0 && dynamics.drag.fluid().is_none() {
-            return Err(SceneProblem::new(
-                format!("task.drag.{name}"),
-                format!("{rate:?}"),
-                "must be greater than 0, because thermal noise requires drag",
-            ));
+            let rule = "must be greater than 0, because thermal noise requires drag";
+            let key = format!("task.drag.{name}");
+            return Err(SceneProblem::new(key, format!("{rate:?}"), rule));
         }
-    }
-    if dynamics.stop.is_some() {
-        return Err(SceneProblem::new(
-            "task.stop",
-            "",
-            "a filament in thermal motion never comes to rest: omit stop or thermal",
-        ));
     }
     Ok(())
 }

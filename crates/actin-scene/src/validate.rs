@@ -2,13 +2,13 @@
 
 use super::adaptive_resolution::check_following;
 use super::problem::Problems;
-use super::rules::{check_potential, show};
+use super::rules::{check_index, check_potential, show};
 use super::support::{check_support, check_swings};
 use super::{
     Adaptive, Anchors, Clamp, ClampedEnds, Dynamics, End, Equilibrium, Filament, FreeTranslation,
-    Hold, Monomers, Quantity, Resultant, Scene, SceneProblem, Sections, Task, bead, brownian, drag,
-    imperfection, kinetics, linker, load_rules, numbers, observable, periodic, saddles,
-    section_rules, shape, stage, thermal,
+    Hold, Monomers, Quantity, Resultant, Scene, SceneProblem, Task, bead, brownian, drag,
+    imperfection, linker, load_rules, numbers, observable, periodic, rest, section_rules, shape,
+    stage, thermal,
 };
 use actin_ellipsoid::{MAX_POINTS, MIN_POINTS};
 
@@ -102,11 +102,9 @@ fn check_start(scene: &Scene) -> Result<(), SceneProblem> {
     if scene.start.is_none() {
         return Ok(());
     }
-    let is_automatic =
-        |sections: &Sections| sections.adaptive().is_some() || sections.following().is_some();
     let rule = if scene.filaments().any(|one| one.imperfection.is_some()) {
         "replaces the imperfection of a filament: remove one of them"
-    } else if scene.filaments().any(|one| is_automatic(&one.sections)) {
+    } else if scene.filaments().any(|one| one.sections.is_automatic()) {
         "needs the sections of that run: copy them from its scene.ron"
     } else {
         return Ok(());
@@ -125,9 +123,7 @@ fn check_whole(scene: &Scene, held: &ClampedEnds) -> Result<(), SceneProblem> {
         Task::Dynamics(dynamics) => {
             stage::check_durations(scene, dynamics.duration_ns)?;
             check_swings(scene, held)?;
-            saddles::check(scene, dynamics)?;
-            load_rules::check_rest(scene, dynamics)?;
-            kinetics::check_rest(scene, dynamics)?;
+            rest::check(scene, dynamics)?;
             if let Some(fluid) = dynamics.drag.fluid() {
                 fluid.check_filaments(scene)?;
             }
@@ -158,16 +154,12 @@ fn check_whole(scene: &Scene, held: &ClampedEnds) -> Result<(), SceneProblem> {
 
 fn check_adaptive(scene: &Scene) -> Result<(), SceneProblem> {
     for (i, filament) in scene.filaments().enumerate() {
-        let targets = filament
-            .sections
-            .adaptive()
-            .into_iter()
-            .flat_map(Adaptive::targets);
-        let mut checked =
-            targets.map(|want| check_wanted(scene, "filament.sections.want", want.quantity()));
-        checked
-            .try_for_each(|one| one)
-            .map_err(|problem| problem.with_filament(&scene.filament_key(i)))?;
+        let key = format!("{}.sections.want", scene.filament_key(i));
+        let adaptive = filament.sections.adaptive().into_iter();
+        for target in adaptive.flat_map(Adaptive::targets) {
+            check_wanted(scene, &key, target.quantity())
+                .map_err(|problem| problem.with_filament(&scene.filament_key(i)))?;
+        }
     }
     Ok(())
 }
@@ -175,7 +167,8 @@ fn check_adaptive(scene: &Scene) -> Result<(), SceneProblem> {
 /// Checks that the scene has a quantity, which `key` requests.
 fn check_wanted(scene: &Scene, key: &str, quantity: Quantity) -> Result<(), SceneProblem> {
     if let Quantity::LinkerForce { linker } = quantity {
-        observable::check_linker(scene, &format!("{key}.linker"), linker)?;
+        let count = scene.linkers.len();
+        check_index(&format!("{key}.linker"), "linker", linker, count)?;
     }
     match missing(scene, quantity) {
         Some((key, rule)) => Err(SceneProblem::new(key, "", rule)),
@@ -294,18 +287,14 @@ fn check_clamp(
     let key = format!("clamps[{i}]");
     let filament = scene.named_filament(&format!("{key}.filament"), clamp.filament)?;
     if held.clamp_at(clamp.filament, clamp.end) != Some(i) {
-        return Err(SceneProblem::new(
-            format!("{key}.end"),
-            show(clamp.end),
-            "this end is clamped already",
-        ));
+        let rule = "this end is clamped already";
+        let key = format!("{key}.end");
+        return Err(SceneProblem::new(key, show(clamp.end), rule));
     }
     if !filament.is_rod_at(clamp.end) && clamp.hold != Hold::Wall {
-        return Err(SceneProblem::new(
-            format!("{key}.hold"),
-            show(clamp.hold),
-            "this end consists of monomers: write Wall, which holds the last two monomers",
-        ));
+        let rule = "this end consists of monomers: write Wall, which holds the last two monomers";
+        let key = format!("{key}.hold");
+        return Err(SceneProblem::new(key, show(clamp.hold), rule));
     }
     check_pin(&key, clamp)
 }
@@ -325,26 +314,19 @@ fn check_pin(key: &str, clamp: &Clamp) -> Result<(), SceneProblem> {
 }
 
 fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {
-    if equilibrium.largest_step > 1.0 || equilibrium.smallest_step > equilibrium.largest_step {
-        return Err(SceneProblem::new(
-            "task.largest_step",
-            show(equilibrium.largest_step),
-            "must be at most 1 and at least smallest_step",
-        ));
+    let largest = equilibrium.largest_step;
+    if largest > 1.0 || equilibrium.smallest_step > largest {
+        let rule = "must be at most 1 and at least smallest_step";
+        return Err(SceneProblem::new("task.largest_step", show(largest), rule));
     }
     if equilibrium.iterations == 0 {
-        return Err(SceneProblem::new(
-            "task.iterations",
-            0,
-            "must be at least 1",
-        ));
+        let rule = "must be at least 1";
+        return Err(SceneProblem::new("task.iterations", 0, rule));
     }
-    if equilibrium.states > MOST_STATES {
-        return Err(SceneProblem::new(
-            "task.states",
-            equilibrium.states,
-            format!("must be at most {MOST_STATES}"),
-        ));
+    let states = equilibrium.states;
+    if states > MOST_STATES {
+        let rule = format!("must be at most {MOST_STATES}");
+        return Err(SceneProblem::new("task.states", states, rule));
     }
     Ok(())
 }
@@ -370,11 +352,10 @@ fn check_tolerance(
                     format!("must be below the load of loads[{i}] on 1 nm ({least:e} {unit})")
                 }
             };
-            return Err(SceneProblem::new(
-                format!("{key}.{name}"),
-                show(tolerance),
-                format!("{rule}: otherwise the filament counts as at rest before it has moved"),
-            ));
+            let rule =
+                format!("{rule}: otherwise the filament counts as at rest before it has moved");
+            let key = format!("{key}.{name}");
+            return Err(SceneProblem::new(key, show(tolerance), rule));
         }
     }
     Ok(())
