@@ -1,6 +1,6 @@
 //! Deserialization of types from the tree of values, with positions of errors.
 
-use super::suggestion::{suggestion, unknown_choice, unknown_key};
+use super::suggestion::{suggestion, unknown_key};
 use super::tree::{Kind, SceneValue, Source};
 use serde::de::value::{StrDeserializer, StringDeserializer};
 use serde::de::{
@@ -125,7 +125,8 @@ impl fmt::Display for DeserializeError {
         match &self.reason {
             Reason::UnknownKey(found, known) => f.write_str(&unknown_key(found, known, parent)),
             Reason::UnknownChoice(found, known) => {
-                f.write_str(&unknown_choice(found, known, parent))
+                let known = known.join(", ");
+                write!(f, "unknown {parent} {found}: expected one of {known}")
             }
             Reason::Missing(key) => write!(f, "missing key `{key}` in {parent}"),
             Reason::Duplicate(key) => write!(f, "key `{key}` is written twice in {parent}"),
@@ -264,21 +265,13 @@ impl<'de> Value<'de> {
         known: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, DeserializeError> {
-        let mut children = Children {
-            value: self,
-            next: 0,
-            known,
-        };
+        let mut children = Children::new(self, known);
         let value = visitor.visit_map(&mut children);
         value.map_err(|refusal| refusal.in_structure(name, self.node, children.next.max(1) - 1))
     }
 
     fn list<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
-        visitor.visit_seq(&mut Children {
-            value: self,
-            next: 0,
-            known: &[],
-        })
+        visitor.visit_seq(&mut Children::new(self, &[]))
     }
 
     fn unkeyed(&self) -> DeserializeError {
@@ -459,6 +452,11 @@ struct Children<'de> {
 }
 
 impl<'de> Children<'de> {
+    fn new(value: Value<'de>, known: &'static [&'static str]) -> Self {
+        let next = 0;
+        Self { value, next, known }
+    }
+
     /// Returns the next value that has not been refused.
     fn next(&mut self) -> Option<Value<'de>> {
         let all = self.value.node.children();

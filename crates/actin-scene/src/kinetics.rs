@@ -200,6 +200,11 @@ impl Stepping {
         let on = places.take_while(is_on);
         on.map(|s| s.clamp(0.0, length)).collect()
     }
+
+    /// Returns the rate (1/ns) against a force (pN).
+    pub fn rate(&self, resistance: f64) -> f64 {
+        self.rate_per_ns * (1.0 - resistance / self.stall_pn).clamp(0.0, 1.0)
+    }
 }
 
 /// Checks the rates of linker `i`. Its other numbers must be valid.
@@ -250,12 +255,5 @@ impl Breaking {
             catch.rate_per_ns * (-tension / catch.force_pn).exp()
         });
         self.rate_per_ns * growth.exp() + catch
-    }
-}
-
-impl Stepping {
-    /// Returns the rate (1/ns) against a force (pN).
-    pub fn rate(&self, resistance: f64) -> f64 {
-        self.rate_per_ns * (1.0 - resistance / self.stall_pn).clamp(0.0, 1.0)
     }
 }

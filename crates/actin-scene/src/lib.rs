@@ -37,7 +37,6 @@ mod place;
 mod position;
 mod problem;
 mod read;
-mod report;
 mod repulsion;
 mod rest;
 mod rules;
@@ -61,10 +60,12 @@ mod types;
 mod validate;
 
 pub use actin_cosserat::{
-    CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist,
-    TwistRise, TwistStretch as TwistStretchLaw,
+    CubicShear, PolynomialStretch, RootedStretch, RotaryInertia, SidedTwist, Stiffening,
+    StretchLaw, TanhTwist, TwistRise, TwistStretch as TwistStretchLaw,
 };
+pub use actin_coupling::JunctionWeight;
 pub use actin_coupling::repulsion::Side;
+pub use actin_ellipsoid::Anchors;
 pub use adaptive_resolution::{AdaptiveResolution, RefinementCriterion};
 pub(crate) use arrangement::Arrangement;
 pub use bead::Bead;
@@ -83,15 +84,12 @@ pub use linker::{Linker, LinkerSite};
 pub(crate) use linkers_between::LinkersBetween;
 pub use load::Resultant;
 pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Load};
-pub use model::{
-    Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel, RotaryInertia,
-};
+pub use model::{ForceLaw, JunctionModel, Material, Monomers, RodModel};
 pub use observable::{Observable, Output, Point};
 pub use periodic::PeriodicBox;
 pub use place::ClampedEnds;
 pub use problem::{SceneError, SceneProblem};
-pub use read::{read_all, read_ron, to_ron};
-pub use report::ParseReport;
+pub use read::{ParseReport, read_all, read_ron, to_ron};
 pub use repulsion::{Cuboid, Cylinder, Plane, Repulsion, Sphere, WallName};
 pub use schema::schema;
 pub use section::{MonomerChanges, RodChanges, Section};

@@ -145,9 +145,7 @@ impl Quantity {
             Self::Curvature { .. } => "rad/nm",
         }
     }
-}
 
-impl Quantity {
     /// Formats a value with its unit.
     pub fn show(self, value: f64) -> String {
         match self {

@@ -290,17 +290,17 @@ impl SceneText {
         mistakes: &mut Vec<(usize, SceneError)>,
     ) {
         let node = tree.at(&refusal.indices());
+        let is_refused =
+            |value: &SceneValue| value.kind == Kind::Removed && value.key() == refusal.missing();
+        if refusal.missing().is_some() && node.children().iter().any(is_refused) {
+            return;
+        }
         let place = &node.place;
         if place.is_mistaken {
             // The text after the value belongs to the same mistake.
             mistakes.retain(|(at, _)| !(place.start..place.until).contains(at));
         }
-        let is_refused =
-            |value: &SceneValue| value.kind == Kind::Removed && value.key() == refusal.missing();
-        let is_consequence = refusal.missing().is_some() && node.children().iter().any(is_refused);
-        if !is_consequence {
-            mistakes.push((refusal.at.unwrap_or_default(), self.refused(tree, refusal)));
-        }
+        mistakes.push((refusal.at.unwrap_or_default(), self.refused(tree, refusal)));
     }
 
     /// Returns a mistake that prevents reading the rest of the text.

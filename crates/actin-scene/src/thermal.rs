@@ -41,6 +41,12 @@ impl Scene {
             Task::Equilibrium(_) => None,
         }
     }
+
+    /// Thermal energy of the task (pN nm); zero without a heat bath.
+    pub fn thermal_energy_pn_nm(&self) -> f64 {
+        let thermal = self.task.motion().and_then(|motion| motion.thermal);
+        thermal.map_or(0.0, |thermal| thermal.energy_pn_nm())
+    }
 }
 
 pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
@@ -60,12 +66,4 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
         }
     }
     Ok(())
-}
-
-impl super::Scene {
-    /// Thermal energy of the task (pN nm); zero without a heat bath.
-    pub fn thermal_energy_pn_nm(&self) -> f64 {
-        let thermal = self.task.motion().and_then(|motion| motion.thermal);
-        thermal.map_or(0.0, |thermal| thermal.energy_pn_nm())
-    }
 }
