@@ -82,10 +82,12 @@ fn each<T>(
     }
 }
 
+type FilamentRule = fn(&Filament) -> Result<(), SceneProblem>;
+
 /// Checks a filament whose keys begin with `key`.
 pub(super) fn check_filament(one: &Filament, key: &str, problems: &mut Problems) {
     section_rules::check(one, &format!("{key}.sections"), problems);
-    let checks: [(&str, fn(&Filament) -> Result<(), SceneProblem>); 4] = [
+    let checks: [(&str, FilamentRule); 4] = [
         ("junction", check_junction),
         ("monomers", check_monomers),
         ("imperfection", imperfection::check),
