@@ -327,14 +327,10 @@ impl SceneText {
         } else {
             tree.path(&indices)
         };
-        let error = self.error(refusal.at.unwrap_or_default(), &path, &refusal.to_string());
-        let suggestion = refusal.suggestion();
-        let set = self.blamed(tree, &indices);
-        SceneError {
-            set,
-            suggestion,
-            ..error
-        }
+        let mut error = self.error(refusal.at.unwrap_or_default(), &path, &refusal.to_string());
+        error.suggestion = refusal.suggestion();
+        error.set = self.blamed(tree, &indices);
+        error
     }
 
     fn blamed(&self, tree: &SceneValue, indices: &[usize]) -> Option<String> {
