@@ -1,7 +1,7 @@
 //! Conversion of scene parameters to the models of the lower crates.
 
-use crate::scene::{self, End, Hold, Monomers, SceneProblem};
-use actin_cosserat::{RodClamp, RodEnd, RotaryInertia};
+use crate::scene::{End, Hold, Monomers, SceneProblem};
+use actin_cosserat::{RodClamp, RodEnd};
 use actin_ellipsoid::{
     EllipsoidKey, EllipsoidModel, EllipsoidParameterError, EllipsoidParameters, InterfaceError,
     InterfaceKey, InterfaceKind,
@@ -75,27 +75,12 @@ pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> SceneProb
     )
 }
 
-/// The weight of the bonds of a junction.
-pub(super) fn junction_weight(weight: scene::JunctionWeight) -> actin_coupling::JunctionWeight {
-    match weight {
-        scene::JunctionWeight::Shared => actin_coupling::JunctionWeight::Shared,
-        scene::JunctionWeight::Full => actin_coupling::JunctionWeight::Full,
-    }
-}
-
 pub(super) fn rod_clamp(hold: Hold) -> RodClamp {
     match hold {
         Hold::Wall => RodClamp::Wall,
         Hold::NodeAndFrame => RodClamp::NodeAndFrame,
         Hold::TwoNodesAndFrame => RodClamp::TwoNodesAndFrame,
         Hold::Pin => RodClamp::Pin,
-    }
-}
-
-pub(super) fn rotary_inertia(of_scene: scene::RotaryInertia) -> RotaryInertia {
-    match of_scene {
-        scene::RotaryInertia::CrossSection => RotaryInertia::CrossSection,
-        scene::RotaryInertia::RigidSegment => RotaryInertia::RigidSegment,
     }
 }
 

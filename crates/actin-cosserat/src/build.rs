@@ -27,17 +27,16 @@ pub struct StraightRod {
     pub free_walls: Walls,
 }
 
-/// Transverse inertia of a segment.
+/// Transverse inertia of a segment. It affects only `Dynamics`, and not the means and fluctuations in a heat bath.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum RotaryInertia {
-    /// Moments of the cross-section, as in the rod equations. The highest frequency, at which
-    /// segments rotate against shear, does not depend on the segment length.
+    /// Inertia of the cross-section. The time step does not grow with the length of segments above 10 nm.
     #[default]
     CrossSection,
-    /// Adds `mu l^3 / 12`, the inertia of a rigid segment of length `l` and mass per length `mu`.
-    ///
-    /// The highest frequency decreases as `1 / l`. The bending frequency at wave number `k`
-    /// decreases by a relative `(k l)^2 / 24`. Equilibria and thermal fluctuations do not change.
+    /// Inertia of the cross-section and of a rigid piece of rod, `mass length^2 / 12`. The time step grows with the
+    /// length of segments; slow bending is slower by `(2 pi length / wavelength)^2 / 24`.
     RigidSegment,
 }
 

@@ -10,13 +10,15 @@ use std::ops::Range;
 /// Largest angle (rad) between parallel frames.
 const PARALLEL: f64 = 1e-9;
 
-/// Weight of the bonds of a junction.
+/// Weight of each bond of a junction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum JunctionWeight {
-    /// Inverse number of bonds, so that the bonds share the rigidity of the rod.
+    /// The bonds of a junction share the rigidity of the rod.
     #[default]
     Shared,
-    /// Full rigidity of the rod for every bond, as in the paper.
+    /// Every bond has the full rigidity of the rod, as in the text of the paper.
     Full,
 }
 

@@ -61,16 +61,17 @@ pub struct InterfaceParameters {
     pub maximum_length: f64,
 }
 
-/// Choice of bonds.
+/// Choice of the bonds of an interface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Anchors {
-    /// Sampled independently for each interface.
+    /// Different random bonds in each interface.
     Independent,
-    /// Sampled once per kind of interface, in the body frame of the lower monomer.
+    /// The same random bonds in all interfaces of a kind.
     Identical,
-    /// Quadrature bonds, identical for all interfaces of a kind and independent of the seed: see
-    /// [`crate::Cubature`].
+    /// The same quadrature bonds in all interfaces of a kind, which represent the distribution of random bonds: the
+    /// mean filament.
     #[default]
     Cubature,
 }

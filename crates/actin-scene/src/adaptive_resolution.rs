@@ -1,7 +1,8 @@
 //! Adaptive resolution during a motion: cells resolved into monomers where needed.
 
-use super::rules::{finite, positive, show};
+use super::rules::{check_index, show};
 use super::{Hold, Scene, SceneProblem, Task};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Smallest number of monomers in a cell, below which its curvature is not well defined.
@@ -10,9 +11,7 @@ const LEAST_MONOMERS: f64 = 8.0;
 /// Adaptive resolution during a motion. A cell of the rod is resolved into monomers if at least one criterion
 /// requires it, and becomes a rod again if none does. Between the two thresholds of a criterion a cell keeps
 /// its model.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Following")]
 pub struct AdaptiveResolution {
     /// Length of the filament; positive. It is rounded to a whole number of monomers.
@@ -46,9 +45,7 @@ fn default_least() -> f64 {
 }
 
 /// Criterion for resolving a cell into monomers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Where")]
 pub enum RefinementCriterion {
     /// Mean curvature of the cell.
@@ -116,9 +113,6 @@ pub(super) fn check_following(
     following: &AdaptiveResolution,
 ) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("filament.sections.{name}");
-    positive(&key("length_nm"), following.length_nm)?;
-    positive(&key("cell_nm"), following.cell_nm)?;
-    positive(&key("least_ns"), following.least_ns)?;
     let refused =
         |name: &str, value: String, rule: String| Err(SceneProblem::new(key(name), value, rule));
     let shortest = LEAST_MONOMERS * scene.filament.monomers.rise_nm;
@@ -151,11 +145,9 @@ fn check_where(
     key: &str,
     criterion: &RefinementCriterion,
 ) -> Result<(), SceneProblem> {
-    if let RefinementCriterion::Linker { linker, .. } = *criterion
-        && linker >= scene.linkers.len()
-    {
-        let rule = format!("the scene has {} linker(s)", scene.linkers.len());
-        return Err(SceneProblem::new(format!("{key}.linker"), linker, rule));
+    if let RefinementCriterion::Linker { linker, .. } = *criterion {
+        let count = scene.linkers.len();
+        check_index(&format!("{key}.linker"), "linker", linker, count)?;
     }
     if let RefinementCriterion::LargestEnergy { above, .. } = *criterion
         && above > 1.0
@@ -164,7 +156,6 @@ fn check_where(
         return Err(SceneProblem::new(format!("{key}.above"), show(above), rule));
     }
     let ([lower, upper], [low, high]) = criterion.thresholds();
-    finite(&format!("{key}.{upper}"), high)?;
     if low >= 0.0 && low < high {
         return Ok(());
     }

@@ -1,11 +1,12 @@
 //! Arrangements of filaments: copies, random networks and bundles.
 
-use super::rules::{all_finite, direction, non_negative, positive, show};
+use super::rules::show;
 use super::{Filament, PeriodicBox, Repulsion, SceneProblem, Section};
 use actin_coupling::repulsion::Wall;
 use actin_mechanics::{Vector3, segments};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -23,9 +24,7 @@ const PARTS: u32 = 100;
 /// Placement of many filaments. The arranged filaments follow the listed ones, in the order of the arrangements.
 ///
 /// The resolved scene lists each filament.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) enum Arrangement {
     /// Copies of a filament at equal displacements.
     Copies {
@@ -83,8 +82,7 @@ pub(crate) enum Arrangement {
 }
 
 /// Distribution of the directions of filaments.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub(crate) enum Orientation {
     /// Uniform on the sphere.
     #[default]
@@ -159,35 +157,13 @@ impl Arrangement {
             let rule = format!("must be from 1 to {MOST_FILAMENTS}");
             return Err(SceneProblem::new(key("count"), count, rule));
         }
-        let filament = self.filament();
-        all_finite(&key("filament.at_nm"), filament.at_nm)?;
-        direction(&key("filament.direction"), filament.direction)?;
         match self {
-            Self::Copies { shift_nm, .. } => direction(&key("shift_nm"), *shift_nm),
             Self::Random {
-                box_nm,
-                centre_nm,
-                lengths_nm,
-                apart_nm,
+                lengths_nm: Some(lengths),
+                filament,
                 ..
-            } => {
-                non_negative(&key("apart_nm"), apart_nm.unwrap_or(0.0))?;
-                box_nm
-                    .iter()
-                    .try_for_each(|edge| non_negative(&key("box_nm"), *edge))?;
-                all_finite(&key("centre_nm"), *centre_nm)?;
-                lengths_nm.map_or(Ok(()), |lengths| {
-                    check_lengths(&key("lengths_nm"), lengths, filament)
-                })
-            }
-            Self::Bundle {
-                spacing_nm,
-                stagger_nm,
-                ..
-            } => {
-                positive(&key("spacing_nm"), *spacing_nm)?;
-                non_negative(&key("stagger_nm"), *stagger_nm)
-            }
+            } => check_lengths(&key("lengths_nm"), *lengths, filament),
+            _ => Ok(()),
         }
     }
 
@@ -414,9 +390,6 @@ fn copies(filament: &Filament, count: usize, shift: Vector3) -> Vec<Filament> {
 }
 
 fn check_lengths(key: &str, lengths: [f64; 2], filament: &Filament) -> Result<(), SceneProblem> {
-    lengths
-        .iter()
-        .try_for_each(|length| positive(key, *length))?;
     if lengths[0] > lengths[1] {
         let rule = "must be in ascending order";
         return Err(SceneProblem::new(key, show(lengths), rule));

@@ -1,7 +1,8 @@
 //! Overdamped motion in a fluid: the task `Brownian` and its validation.
 
-use super::rules::{non_negative, positive, show};
+use super::rules::show;
 use super::{Dynamics, Filament, Flow, Scene, SceneProblem, Task, Thermal, rules};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -11,9 +12,7 @@ const NS_PER_MS: f64 = 1e6;
 
 /// Overdamped motion in a fluid, with steps that are implicit in the stiffness. Inertia is neglected: recorded
 /// velocities are zero. Rods require `EnergyGradient`. Loads that rotate with the filament are refused.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Brownian {
     /// Simulated time; positive, at least the duration of the path.
     pub duration_ms: f64,
@@ -49,8 +48,7 @@ pub struct Brownian {
 }
 
 /// Fluid with physical drag.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Fluid {
     /// A viscous fluid.
     Water(Water),
@@ -58,9 +56,8 @@ pub enum Fluid {
 
 /// A viscous fluid. Its drag is anisotropic and local: the drag of a cylinder of the filament's length,
 /// distributed uniformly (Tirado, Lopez Martinez and Garcia de la Torre 1984).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
 pub struct Water {
     /// Viscosity; positive. The default is the viscosity of water at 25 degrees C.
     pub viscosity_mpa_s: f64,
@@ -72,9 +69,7 @@ pub struct Water {
 }
 
 /// Model of the interfaces between monomers in overdamped motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Interfaces {
     /// Bonds. Their fastest relaxation time is 0.1 ps: a microsecond takes ten million steps.
     #[default]
@@ -157,46 +152,23 @@ impl Task {
 }
 
 pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
-    positive("task.duration_ms", brownian.duration_ms)?;
-    non_negative("task.temperature_k", brownian.temperature_k)?;
-    for (key, value) in [
-        ("task.time_step_ns", brownian.time_step_ns),
-        ("task.record_every_ns", brownian.record_every_ns),
-    ] {
-        value.map_or(Ok(()), |value| positive(key, value))?;
-    }
     if let Interfaces::QuasiHarmonic { sampled_ns } = brownian.interfaces {
-        positive("task.interfaces.sampled_ns", sampled_ns)?;
         if sampled_ns > MOST_SAMPLED_NS {
             let rule = format!(
                 "must be at most {MOST_SAMPLED_NS:?}: 400 ns determine each stiffness to 2 %"
             );
-            return Err(SceneProblem::new(
-                "task.interfaces.sampled_ns",
-                sampled_ns,
-                rule,
-            ));
+            let key = "task.interfaces.sampled_ns";
+            return Err(SceneProblem::new(key, sampled_ns, rule));
         }
         if brownian.temperature_k == 0.0 {
             let rule = "QuasiHarmonic interfaces require a temperature above 0: write a temperature, or Bonds";
             return Err(SceneProblem::new("task.interfaces", "QuasiHarmonic", rule));
         }
     }
-    brownian.drag.check()?;
     brownian.flow.check()
 }
 
 impl Fluid {
-    pub(super) fn check(&self) -> Result<(), SceneProblem> {
-        let Self::Water(Water {
-            viscosity_mpa_s,
-            radius_nm,
-            ..
-        }) = *self;
-        positive("task.drag.viscosity_mpa_s", viscosity_mpa_s)?;
-        positive("task.drag.radius_nm", radius_nm)
-    }
-
     pub(super) fn check_filaments(&self, scene: &Scene) -> Result<(), SceneProblem> {
         let Self::Water(Water { radius_nm, .. }) = *self;
         let diameter = 2.0 * radius_nm;
@@ -206,11 +178,8 @@ impl Fluid {
             let rule = format!(
                 "a length of {length} nm is less than {LEAST_RATIO} diameters of {diameter} nm"
             );
-            Err(SceneProblem::new(
-                "task.drag.radius_nm",
-                show(radius_nm),
-                rule,
-            ))
+            let key = "task.drag.radius_nm";
+            Err(SceneProblem::new(key, show(radius_nm), rule))
         })
     }
 }

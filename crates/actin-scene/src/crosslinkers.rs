@@ -1,10 +1,10 @@
 //! Crosslinkers and motors that bind to filaments and unbind from them.
 
 use super::linkers_between::{MOST_SITES, SITE_SPACING_NM};
-use super::rules::{non_negative, positive};
 use super::{
     Breaking, Filament, Forming, Kinetics, Linker, LinkerSite, Roaming, SceneProblem, Stepping,
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Default energy of the longest linker that forms, in units of kT at 298 K. Longer ones are 2e4 times
@@ -21,9 +21,7 @@ const MOST: usize = 1_000_000;
 /// sites.
 ///
 /// In a scene in memory, each crosslinker is a linker with `kinetics`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct Crosslinkers {
     /// Number of crosslinkers; from 1 to a million.
     pub count: usize,
@@ -74,31 +72,26 @@ impl Crosslinkers {
     ) -> Result<Vec<Linker>, SceneProblem> {
         self.check(k, filaments)?;
         let length = filaments.first().map_or(0.0, Filament::length_nm);
-        let site = LinkerSite {
+        let last = self.site(length);
+        Ok(vec![self.linker(Some(last)); self.count])
+    }
+
+    fn site(&self, at_nm: f64) -> LinkerSite {
+        LinkerSite {
             filament: 0,
-            at_nm: length,
+            at_nm,
             radius_nm: self.radius_nm,
             azimuth_deg: 0.0,
-        };
-        Ok(vec![self.linker(Some(site)); self.count])
+        }
     }
 
     /// A free crosslinker of the pool.
     fn linker(&self, to: Option<LinkerSite>) -> Linker {
         Linker {
-            filament: 0,
-            at_nm: 0.0,
-            radius_nm: self.radius_nm,
-            azimuth_deg: 0.0,
             to,
-            anchor_nm: None,
-            image: [0; 3],
-            displaced_nm: None,
-            stiffness_pn_per_nm: self.stiffness_pn_per_nm,
             rest_length_nm: self.rest_length_nm,
-            tilt_pn_nm: 0.0,
-            twist_pn_nm: 0.0,
             kinetics: Some(self.kinetics()),
+            ..Linker::new(self.site(0.0), self.stiffness_pn_per_nm)
         }
     }
 
@@ -158,14 +151,9 @@ impl Crosslinkers {
             let rule = format!("must be from 1 to {MOST}");
             return Err(SceneProblem::new(key("count"), self.count, rule));
         }
-        positive(&key("stiffness_pn_per_nm"), self.stiffness_pn_per_nm)?;
-        non_negative(&key("rest_length_nm"), self.rest_length_nm)?;
-        non_negative(&key("radius_nm"), self.radius_nm)?;
-        positive(&key("attach_per_ns"), self.attach_per_ns)?;
-        positive(&key("bind_per_ns"), self.bind_per_ns)?;
-        self.check_kinetics(k, filaments)?;
-        if let Some(reach) = self.reach_nm {
-            positive(&key("reach_nm"), reach)?;
+        if let Some(steps) = &self.steps {
+            let lengths = filaments.iter().map(Filament::length_nm);
+            steps.check(&key("steps"), lengths.fold(0.0, f64::max))?;
         }
         if filaments.len() < 2 {
             let rule = "crosslinkers bind to different filaments: a scene has at least two";
@@ -186,23 +174,6 @@ impl Crosslinkers {
         if let (Some(spacing), Some(_)) = (self.site_spacing_nm, self.steps) {
             let rule = "the steps set the distance of sites: omit this key or steps";
             return Err(SceneProblem::new(key("site_spacing_nm"), spacing, rule));
-        }
-        Ok(())
-    }
-
-    fn check_kinetics(&self, k: usize, filaments: &[Filament]) -> Result<(), SceneProblem> {
-        let key = |name: &str| format!("crosslinkers[{k}].{name}");
-        self.unbinds.check(&key("unbinds"))?;
-        if let Some(steps) = &self.steps {
-            let longest = filaments
-                .iter()
-                .map(Filament::length_nm)
-                .fold(0.0, f64::max);
-            positive(&key("steps.rate_per_ns"), steps.rate_per_ns)?;
-            steps.check(&key("steps"), longest)?;
-        }
-        if let Some(averaging) = self.averaging_ns {
-            non_negative(&key("averaging_ns"), averaging)?;
         }
         Ok(())
     }

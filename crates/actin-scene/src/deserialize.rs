@@ -1,6 +1,6 @@
 //! Deserialization of types from the tree of values, with positions of errors.
 
-use super::suggestion::{suggestion, unknown_choice, unknown_key};
+use super::suggestion::{suggestion, unknown_key};
 use super::tree::{Kind, SceneValue, Source};
 use serde::de::value::{StrDeserializer, StringDeserializer};
 use serde::de::{
@@ -125,7 +125,8 @@ impl fmt::Display for DeserializeError {
         match &self.reason {
             Reason::UnknownKey(found, known) => f.write_str(&unknown_key(found, known, parent)),
             Reason::UnknownChoice(found, known) => {
-                f.write_str(&unknown_choice(found, known, parent))
+                let known = known.join(", ");
+                write!(f, "unknown {parent} {found}: expected one of {known}")
             }
             Reason::Missing(key) => write!(f, "missing key `{key}` in {parent}"),
             Reason::Duplicate(key) => write!(f, "key `{key}` is written twice in {parent}"),
@@ -143,10 +144,6 @@ impl de::Error for DeserializeError {
 
     fn invalid_type(_: Unexpected<'_>, expected: &dyn Expected) -> Self {
         Self::custom(format!("is {expected}"))
-    }
-
-    fn unknown_field(found: &str, known: &'static [&'static str]) -> Self {
-        Reason::UnknownKey(found.to_owned(), known).into()
     }
 
     fn unknown_variant(found: &str, known: &'static [&'static str]) -> Self {
@@ -261,20 +258,20 @@ impl<'de> Value<'de> {
         }
     }
 
-    fn keys<V: Visitor<'de>>(self, name: &str, visitor: V) -> Result<V::Value, DeserializeError> {
-        let mut children = Children {
-            value: self,
-            next: 0,
-        };
+    /// Reads a structure, whose keys must be `known`.
+    fn keys<V: Visitor<'de>>(
+        self,
+        name: &str,
+        known: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, DeserializeError> {
+        let mut children = Children::new(self, known);
         let value = visitor.visit_map(&mut children);
         value.map_err(|refusal| refusal.in_structure(name, self.node, children.next.max(1) - 1))
     }
 
     fn list<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
-        visitor.visit_seq(&mut Children {
-            value: self,
-            next: 0,
-        })
+        visitor.visit_seq(&mut Children::new(self, &[]))
     }
 
     fn unkeyed(&self) -> DeserializeError {
@@ -399,15 +396,15 @@ impl<'de> Deserializer<'de> for Value<'de> {
     fn deserialize_struct<V: Visitor<'de>>(
         self,
         name: &'static str,
-        _fields: &'static [&'static str],
+        fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, DeserializeError> {
         match &self.node.kind {
             Kind::Group(Some(found), _) if !self.is_chosen && found != name => {
                 Err(self.refused(format!("{name} is expected, not {found}")))
             }
-            Kind::Group(..) => self.keys(name, visitor),
-            _ if self.is_chosen => self.keys(name, visitor),
+            Kind::Group(..) => self.keys(name, fields, visitor),
+            _ if self.is_chosen => self.keys(name, fields, visitor),
             _ => Err(self.unbracketed(name)),
         }
     }
@@ -442,24 +439,24 @@ impl<'de> Deserializer<'de> for Value<'de> {
         value.map_err(|refusal| refusal.in_choice(kind, node))
     }
 
-    fn deserialize_ignored_any<V: Visitor<'de>>(
-        self,
-        visitor: V,
-    ) -> Result<V::Value, DeserializeError> {
-        visitor.visit_unit()
-    }
-
     serde::forward_to_deserialize_any! {
-        i8 i16 i32 i128 u8 u16 u32 u128 f32 char bytes byte_buf unit unit_struct tuple_struct map identifier
+        i8 i16 i32 i128 u8 u16 u32 u128 f32 char bytes byte_buf unit unit_struct tuple_struct map identifier ignored_any
     }
 }
 
 struct Children<'de> {
     value: Value<'de>,
     next: usize,
+    /// Keys of a structure.
+    known: &'static [&'static str],
 }
 
 impl<'de> Children<'de> {
+    fn new(value: Value<'de>, known: &'static [&'static str]) -> Self {
+        let next = 0;
+        Self { value, next, known }
+    }
+
     /// Returns the next value that has not been refused.
     fn next(&mut self) -> Option<Value<'de>> {
         let all = self.value.node.children();
@@ -501,6 +498,9 @@ impl<'de> MapAccess<'de> for &mut Children<'de> {
         let Some(key) = &value.node.key else {
             return Err(value.unkeyed().under(self.next - 1, value.node));
         };
+        if !self.known.contains(&key.as_str()) {
+            return Err(Reason::UnknownKey(key.clone(), self.known).into());
+        }
         let key: StrDeserializer<'_, DeserializeError> = key.as_str().into_deserializer();
         seed.deserialize(key).map(Some)
     }
@@ -586,9 +586,9 @@ impl<'de> VariantAccess<'de> for Choice<'de> {
 
     fn struct_variant<V: Visitor<'de>>(
         self,
-        _fields: &'static [&'static str],
+        fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, DeserializeError> {
-        self.inner().keys(self.name(), visitor)
+        self.inner().keys(self.name(), fields, visitor)
     }
 }

@@ -1,15 +1,14 @@
 //! Drag of motion with inertia: numerical damping or a fluid.
 
 use super::brownian::{Fluid, Water};
-use super::rules::non_negative;
+use super::rules::show;
 use super::{Dynamics, Integrator, SceneProblem};
+use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// Numerical damping, proportional to mass: velocities decay as `exp(-rate t)`. Physical drag follows from the
 /// viscosity of `Water`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Drag")]
 pub struct DragRates {
     /// Damping rate of velocities; at least 0.
@@ -19,8 +18,7 @@ pub struct DragRates {
 }
 
 /// Drag of motion with inertia.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum DragModel {
     /// Numerical damping.
@@ -66,24 +64,13 @@ impl DragModel {
 }
 
 pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
-    let Some(fluid) = dynamics.drag.fluid() else {
-        let rates = dynamics.drag.rates();
-        non_negative("task.drag.translational_per_ns", rates.translational_per_ns)?;
-        return non_negative("task.drag.rotational_per_ns", rates.rotational_per_ns);
-    };
-    fluid.check()?;
-    if matches!(
-        dynamics.integrator,
-        Integrator::PositionVerlet | Integrator::Pefrl
-    ) {
+    let usual = [Integrator::PositionVerlet, Integrator::Pefrl];
+    if dynamics.drag.fluid().is_none() || usual.contains(&dynamics.integrator) {
         return Ok(());
     }
     let rule = "is not used with Water, which has its own integrator (Gronbech-Jensen and Farago): omit this key";
-    Err(SceneProblem::new(
-        "task.integrator",
-        format!("{:?}", dynamics.integrator),
-        rule,
-    ))
+    let integrator = show(dynamics.integrator);
+    Err(SceneProblem::new("task.integrator", integrator, rule))
 }
 
 /// Reads keys without a name as `Drag`.

@@ -1,6 +1,7 @@
 //! Small geometric imperfection of a filament.
 
-use super::{Filament, SceneProblem, rules};
+use super::{Filament, SceneProblem};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Largest amplitude relative to the length of the filament: larger ones would stretch it noticeably.
@@ -10,9 +11,7 @@ const LARGEST: f64 = 0.01;
 ///
 /// It breaks the symmetry of a straight filament, which otherwise stays straight under any compression. The rest
 /// shape stays straight: equilibria equal the equilibria of the perfect filament.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Imperfection {
     /// Largest displacement of the axis; positive, at most a hundredth of the length.
     pub amplitude_nm: f64,
@@ -26,7 +25,6 @@ pub(super) fn check(filament: &Filament) -> Result<(), SceneProblem> {
     };
     let key = "filament.imperfection.amplitude_nm";
     let amplitude = imperfection.amplitude_nm;
-    rules::positive(key, amplitude)?;
     let limit = LARGEST * filament.length_nm();
     if amplitude > limit {
         let rule = format!(

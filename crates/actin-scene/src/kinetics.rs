@@ -1,7 +1,8 @@
 //! Rates of breaking, forming and stepping of linkers, and their validation.
 
-use super::rules::{non_negative, positive, show};
-use super::{Dynamics, Linker, Scene, SceneProblem, Task};
+use super::rules::show;
+use super::{Linker, Scene, SceneProblem, Task};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 const MOST_PLACES: f64 = 1e5;
@@ -16,9 +17,7 @@ const AVERAGED: f64 = 0.1;
 /// per linker. Zero-force rates times the step may be at most 0.1: the relative error of event times is `k
 /// h/2`. Below, `f` is the tension of the linker, or 0 in compression, averaged over `averaging_ns`. Thermal
 /// fluctuations that are faster do not change rates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Kinetics {
     /// Seed of the events. They depend only on the seed, the number of the step and the index of the linker.
     pub seed: u64,
@@ -50,9 +49,7 @@ pub struct Kinetics {
 /// The rate per site is `k exp(-U/kT)` with the rate `k` of `forms` and the energy `U` of the linker. Without mean load,
 /// detailed balance holds. With `averaging_ns: 0`, binding has the factor of `breaks` at the present tension, and
 /// detailed balance holds under any load. `at_nm` and `to` do not apply.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Roaming {
     /// Rate at which a free linker attaches one hand; positive.
     pub attach_per_ns: f64,
@@ -61,9 +58,7 @@ pub struct Roaming {
 }
 
 /// Breaking at the rate `k exp(f/F)` (Bell), plus the rate of a catch bond.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Breaking {
     /// Rate `k` without force; positive.
     pub rate_per_ns: f64,
@@ -76,9 +71,7 @@ pub struct Breaking {
 }
 
 /// Catch bond: breaking at the rate `k exp(-f/F)`, in addition to the rate of `Breaking`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Catch {
     /// Rate `k` without force; positive.
     pub rate_per_ns: f64,
@@ -92,9 +85,7 @@ pub struct Catch {
 /// the ratio `exp(-U/kT)` of forming to breaking rates, which `breaks` does not satisfy. The steady state in a
 /// heat bath is therefore not thermal equilibrium, and events exchange energy with the filament
 /// (`events_pn_nm`). `Roaming` has a rate that depends on the energy.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Forming {
     /// Rate within reach; positive.
     pub rate_per_ns: f64,
@@ -104,9 +95,7 @@ pub struct Forming {
 
 /// Stepping of a bound site at the rate `k (1 - f/F)`, limited to 0 to `k`. Here `f` is the resisting force of the
 /// linker along the filament.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Stepping {
     /// Step length along the filament; not zero, negative towards the start. The first site is `at_nm`.
     pub step_nm: f64,
@@ -139,25 +128,12 @@ impl Kinetics {
     }
 
     fn check(&self, key: &str, length: f64) -> Result<(), SceneProblem> {
-        for (name, rate) in self.rates() {
-            positive(&format!("{key}.{name}"), rate)?;
-        }
-        if let Some(breaks) = &self.breaks {
-            breaks.check(&format!("{key}.breaks"))?;
-        }
-        if let Some(forms) = &self.forms {
-            positive(&format!("{key}.forms.reach_nm"), forms.reach_nm)?;
-        }
         if let Some(steps) = &self.steps {
             steps.check(&format!("{key}.steps"), length)?;
         }
-        let happens = self.breaks.is_some() || self.forms.is_some() || self.steps.is_some();
-        if !happens {
+        if self.breaks.is_none() && self.forms.is_none() && self.steps.is_none() {
             let rule = "has no events: write breaks, forms or steps, or omit kinetics";
             return Err(SceneProblem::new(key, "", rule));
-        }
-        if let Some(averaging) = self.averaging_ns {
-            non_negative(&format!("{key}.averaging_ns"), averaging)?;
         }
         if let Some(roams) = &self.roams {
             self.check_roaming(roams, key)?;
@@ -169,9 +145,7 @@ impl Kinetics {
         }
         Ok(())
     }
-}
 
-impl Kinetics {
     /// Averaging time of forces (ns).
     pub fn averaging_time(&self) -> f64 {
         let of_bound = self
@@ -185,7 +159,6 @@ impl Kinetics {
 
     fn check_roaming(&self, roams: &Roaming, key: &str) -> Result<(), SceneProblem> {
         let name = format!("{key}.roams");
-        positive(&format!("{name}.site_spacing_nm"), roams.site_spacing_nm)?;
         if self.bound {
             let rule = "linkers that roam are free at the start: write bound: false";
             return Err(SceneProblem::new(format!("{key}.bound"), true, rule));
@@ -205,34 +178,16 @@ impl Kinetics {
     }
 }
 
-impl Breaking {
-    pub(super) fn check(&self, key: &str) -> Result<(), SceneProblem> {
-        positive(&format!("{key}.rate_per_ns"), self.rate_per_ns)?;
-        if let Some(force) = self.force_pn {
-            positive(&format!("{key}.force_pn"), force)?;
-        }
-        let Some(catch) = &self.catch else {
-            return Ok(());
-        };
-        positive(&format!("{key}.catch.rate_per_ns"), catch.rate_per_ns)?;
-        positive(&format!("{key}.catch.force_pn"), catch.force_pn)
-    }
-}
-
 impl Stepping {
     pub(super) fn check(&self, key: &str, length: f64) -> Result<(), SceneProblem> {
-        positive(&format!("{key}.stall_pn"), self.stall_pn)?;
         let step = self.step_nm;
         let places = length / step.abs();
-        if step.is_finite() && places <= MOST_PLACES {
+        if places <= MOST_PLACES {
             return Ok(());
         }
         let rule = "must be finite, and at least a hundred-thousandth of the filament's length";
-        Err(SceneProblem::new(
-            format!("{key}.step_nm"),
-            show(step),
-            rule,
-        ))
+        let key = format!("{key}.step_nm");
+        Err(SceneProblem::new(key, show(step), rule))
     }
 
     /// Returns the arc lengths (nm) of all sites of a linker that steps from `from_nm`, on a filament of a
@@ -244,6 +199,11 @@ impl Stepping {
         let is_on = |s: &f64| *s >= -1e-9 && *s <= length + 1e-9;
         let on = places.take_while(is_on);
         on.map(|s| s.clamp(0.0, length)).collect()
+    }
+
+    /// Returns the rate (1/ns) against a force (pN).
+    pub fn rate(&self, resistance: f64) -> f64 {
+        self.rate_per_ns * (1.0 - resistance / self.stall_pn).clamp(0.0, 1.0)
     }
 }
 
@@ -287,26 +247,6 @@ fn check_pool(scene: &Scene, linker: &Linker, key: &str) -> Result<(), SceneProb
     Ok(())
 }
 
-/// Refuses `stop` and `leave_saddles` in scenes with random linker events.
-pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProblem> {
-    let Some(i) = scene.linkers.iter().position(|l| l.kinetics.is_some()) else {
-        return Ok(());
-    };
-    let rule = |key: &str| {
-        format!(
-            "linkers[{i}] breaks, forms or steps at random, so that the filament never comes to rest: omit {key}"
-        )
-    };
-    if dynamics.stop.is_some() {
-        return Err(SceneProblem::new("task.stop", "", rule("stop")));
-    }
-    if dynamics.leave_saddles > 0 {
-        let (key, value) = ("task.leave_saddles", dynamics.leave_saddles);
-        return Err(SceneProblem::new(key, value, rule("leave_saddles")));
-    }
-    Ok(())
-}
-
 impl Breaking {
     /// Returns the rate (1/ns) at a tension (pN).
     pub fn rate(&self, tension: f64) -> f64 {
@@ -315,12 +255,5 @@ impl Breaking {
             catch.rate_per_ns * (-tension / catch.force_pn).exp()
         });
         self.rate_per_ns * growth.exp() + catch
-    }
-}
-
-impl Stepping {
-    /// Returns the rate (1/ns) against a force (pN).
-    pub fn rate(&self, resistance: f64) -> f64 {
-        self.rate_per_ns * (1.0 - resistance / self.stall_pn).clamp(0.0, 1.0)
     }
 }

@@ -1,13 +1,12 @@
 //! Constitutive laws of rods.
 
 use actin_cosserat::{CubicShear, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistStretch};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Constitutive law of a rod. `Homogenised` is the best approximation of filaments of monomers. Laws marked "to
 /// reproduce the paper" are for its figures.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum RodLaw {
     /// One potential of all strains: the energy of cells of monomers of the mean filament or, with sampled
     /// bonds, the mean over samples. In a heat bath of 273 to 323 K it is the free energy of the mean
@@ -73,9 +72,8 @@ impl RodLaw {
 }
 
 /// Laws for single deformations.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
 pub struct RodLaws {
     /// Law of bending.
     pub bend: Option<BendLaw>,
@@ -90,8 +88,7 @@ pub struct RodLaws {
 }
 
 /// Law of bending.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[non_exhaustive]
 pub enum BendLaw {
     /// Rigidity that increases with bending, twist and shear.
@@ -99,8 +96,7 @@ pub enum BendLaw {
 }
 
 /// Law of twist.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[non_exhaustive]
 pub enum TwistLaw {
     /// Three tanh steps, as published.
@@ -110,8 +106,7 @@ pub enum TwistLaw {
 }
 
 /// Law of shear.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum ShearLaw {
     /// Force with a linear and a cubic part.
     Cubic(CubicShear),

@@ -27,8 +27,8 @@ mod linker;
 mod linkers_between;
 mod load;
 mod load_rules;
-mod magnitude;
 mod model;
+mod numbers;
 mod observable;
 mod parse;
 pub mod path;
@@ -37,12 +37,10 @@ mod place;
 mod position;
 mod problem;
 mod read;
-mod report;
 mod repulsion;
+mod rest;
 mod rules;
-mod saddles;
 mod scene_file;
-#[cfg(feature = "schema")]
 mod schema;
 mod section;
 mod section_rules;
@@ -62,10 +60,12 @@ mod types;
 mod validate;
 
 pub use actin_cosserat::{
-    CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist,
-    TwistRise, TwistStretch as TwistStretchLaw,
+    CubicShear, PolynomialStretch, RootedStretch, RotaryInertia, SidedTwist, Stiffening,
+    StretchLaw, TanhTwist, TwistRise, TwistStretch as TwistStretchLaw,
 };
+pub use actin_coupling::JunctionWeight;
 pub use actin_coupling::repulsion::Side;
+pub use actin_ellipsoid::Anchors;
 pub use adaptive_resolution::{AdaptiveResolution, RefinementCriterion};
 pub(crate) use arrangement::Arrangement;
 pub use bead::Bead;
@@ -84,17 +84,13 @@ pub use linker::{Linker, LinkerSite};
 pub(crate) use linkers_between::LinkersBetween;
 pub use load::Resultant;
 pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Load};
-pub use model::{
-    Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel, RotaryInertia,
-};
+pub use model::{ForceLaw, JunctionModel, Material, Monomers, RodModel};
 pub use observable::{Observable, Output, Point};
 pub use periodic::PeriodicBox;
 pub use place::ClampedEnds;
 pub use problem::{SceneError, SceneProblem};
-pub use read::{read_all, read_ron, to_ron};
-pub use report::ParseReport;
+pub use read::{ParseReport, read_all, read_ron, to_ron};
 pub use repulsion::{Cuboid, Cylinder, Plane, Repulsion, Sphere, WallName};
-#[cfg(feature = "schema")]
 pub use schema::schema;
 pub use section::{MonomerChanges, RodChanges, Section};
 pub use sections::{Adaptive, Quantity, Sections, Target};

@@ -1,16 +1,15 @@
 //! Linkers and their validation.
 
-use super::rules::{finite, non_negative, positive, show};
+use super::rules::{check_on_filament, show};
 use super::{Kinetics, Scene, SceneProblem, kinetics};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Hookean linker between a site of a filament and another site or a fixed anchor.
 ///
 /// A site has an arc length, a distance from the axis and an azimuth in the filament as built, independent of the
 /// model at the site. Exactly one of `to`, `anchor_nm` and `displaced_nm` defines the other end.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Linker {
     /// Index of the filament.
     #[serde(default)]
@@ -56,9 +55,8 @@ pub struct Linker {
 }
 
 /// Site of a linker on a filament.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, rename = "Site")]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Site")]
 pub struct LinkerSite {
     /// Index of the filament.
     #[serde(default)]
@@ -86,6 +84,25 @@ fn is_origin(image: &[i32; 3]) -> bool {
 }
 
 impl Linker {
+    /// Creates a linker at a site with this stiffness (pN/nm) and rest length 0, without another end.
+    pub fn new(site: LinkerSite, stiffness_pn_per_nm: f64) -> Self {
+        Self {
+            filament: site.filament,
+            at_nm: site.at_nm,
+            radius_nm: site.radius_nm,
+            azimuth_deg: site.azimuth_deg,
+            to: None,
+            anchor_nm: None,
+            image: [0; 3],
+            displaced_nm: None,
+            stiffness_pn_per_nm,
+            rest_length_nm: 0.0,
+            tilt_pn_nm: 0.0,
+            twist_pn_nm: 0.0,
+            kinetics: None,
+        }
+    }
+
     /// Returns the site at the first end.
     pub fn site(&self) -> LinkerSite {
         LinkerSite {
@@ -135,11 +152,8 @@ impl LinkerSite {
 pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("linkers[{i}].{name}");
     check_site(scene, &format!("linkers[{i}]"), &linker.site())?;
-    positive(&key("stiffness_pn_per_nm"), linker.stiffness_pn_per_nm)?;
-    non_negative(&key("rest_length_nm"), linker.rest_length_nm)?;
     check_one_end(i, linker)?;
     for (name, stiffness) in linker.angular() {
-        non_negative(&key(name), stiffness)?;
         if stiffness > 0.0 && (linker.to.is_none() || linker.kinetics.is_some()) {
             let rule = "requires a linker between two sites (`to`) without `kinetics`";
             return Err(SceneProblem::new(key(name), show(stiffness), rule));
@@ -152,13 +166,7 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
             return Err(SceneProblem::new(key("to"), "", rule));
         }
     }
-    match linker.anchor() {
-        Some(place) if place.iter().any(|v| !v.is_finite()) => {
-            let key = key(linker.end_key());
-            Err(SceneProblem::new(key, show(place), "must be finite"))
-        }
-        _ => kinetics::check(scene, i, linker),
-    }
+    kinetics::check(scene, i, linker)
 }
 
 fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
@@ -170,11 +178,8 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     ];
     for (name, value) in ends {
         if let Some(value) = value.filter(|_| name != first) {
-            return Err(SceneProblem::new(
-                format!("linkers[{i}].{name}"),
-                show(value),
-                rule(),
-            ));
+            let key = format!("linkers[{i}].{name}");
+            return Err(SceneProblem::new(key, show(value), rule()));
         }
     }
     if linker.to.is_none() && linker.anchor().is_none() {
@@ -187,15 +192,5 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
 /// Checks a site. Its keys begin with `key`.
 pub(super) fn check_site(scene: &Scene, key: &str, site: &LinkerSite) -> Result<(), SceneProblem> {
     let filament = scene.named_filament(&format!("{key}.filament"), site.filament)?;
-    let length = filament.length_nm();
-    if !(0.0..=length).contains(&site.at_nm) {
-        let rule = format!("must lie on the filament, from 0 to {length:?}");
-        return Err(SceneProblem::new(
-            format!("{key}.at_nm"),
-            show(site.at_nm),
-            rule,
-        ));
-    }
-    non_negative(&format!("{key}.radius_nm"), site.radius_nm)?;
-    finite(&format!("{key}.azimuth_deg"), site.azimuth_deg)
+    check_on_filament(&format!("{key}.at_nm"), site.at_nm, filament.length_nm())
 }

@@ -1,11 +1,11 @@
 //! Random linkers between neighbouring filaments.
 
 use super::periodic::neighbours;
-use super::rules::{non_negative, positive};
 use super::{Filament, Kinetics, Linker, LinkerSite, PeriodicBox, SceneProblem};
-use actin_mechanics::Vector3;
+use actin_mechanics::{UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
@@ -18,9 +18,7 @@ pub(super) const MOST_SITES: f64 = 1e7;
 /// has at most one linker. The linkers follow the listed linkers.
 ///
 /// The resolved scene lists each linker.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct LinkersBetween {
     /// Number of linkers divided by the number of filaments; positive.
     pub per_filament: f64,
@@ -62,9 +60,7 @@ fn site_spacing() -> f64 {
 
 #[derive(Clone, Copy)]
 struct Site {
-    filament: usize,
-    at_nm: f64,
-    azimuth_deg: f64,
+    site: LinkerSite,
     place: Vector3,
 }
 
@@ -98,11 +94,8 @@ impl LinkersBetween {
                 "{wanted} linkers are required, but only {found} pairs of unoccupied sites were found among {reachable} \
                  pairs of sites within reach: increase reach_nm or reduce site_spacing_nm"
             );
-            SceneProblem::new(
-                format!("linker_sets[{k}].per_filament"),
-                self.per_filament,
-                rule,
-            )
+            let key = format!("linker_sets[{k}].per_filament");
+SceneProblem::new(key, self.per_filament, rule)
         })?;
         Ok(pairs
             .iter()
@@ -117,25 +110,15 @@ impl LinkersBetween {
         periodic: Option<&PeriodicBox>,
     ) -> Result<(), SceneProblem> {
         let key = |name: &str| format!("linker_sets[{k}].{name}");
-        positive(&key("per_filament"), self.per_filament)?;
-        positive(&key("reach_nm"), self.reach_nm)?;
-        non_negative(&key("least_reach_nm"), self.least_reach_nm)?;
-        non_negative(&key("radius_nm"), self.radius_nm)?;
         check_reach(&key("reach_nm"), self.reach_nm, periodic)?;
-        positive(&key("site_spacing_nm"), self.site_spacing_nm)?;
-        positive(&key("stiffness_pn_per_nm"), self.stiffness_pn_per_nm)?;
         for (name, stiffness) in [
             ("tilt_pn_nm", self.tilt_pn_nm),
             ("twist_pn_nm", self.twist_pn_nm),
         ] {
-            non_negative(&key(name), stiffness)?;
             if stiffness > 0.0 && self.kinetics.is_some() {
                 let rule = "requires linkers without `kinetics`";
                 return Err(SceneProblem::new(key(name), stiffness, rule));
             }
-        }
-        if let Some(length) = self.rest_length_nm {
-            non_negative(&key("rest_length_nm"), length)?;
         }
         let length: f64 = filaments.iter().map(Filament::length_nm).sum();
         let sites = length / self.site_spacing_nm;
@@ -143,31 +126,29 @@ impl LinkersBetween {
             return Ok(());
         }
         let rule = format!("makes {sites:.0} sites, more than {MOST_SITES:.0}");
-        Err(SceneProblem::new(
-            key("site_spacing_nm"),
-            self.site_spacing_nm,
-            rule,
-        ))
+        let key = key("site_spacing_nm");
+        Err(SceneProblem::new(key, self.site_spacing_nm, rule))
     }
 
     fn sites(&self, filaments: &[Filament]) -> Vec<Site> {
         let of_filament = |(filament, one): (usize, &Filament)| {
             let places = one.sites_nm(self.site_spacing_nm);
-            let azimuth = |s: &f64| one.azimuth_at_radius_deg(*s, self.radius_nm);
-            let azimuths: Vec<f64> = places.iter().map(azimuth).collect();
             let axes = one.axes_at(&places);
-            let arm = |azimuth: f64| {
-                let (sine, cosine) = azimuth.to_radians().sin_cos();
-                Vector3::new(cosine, sine, 0.0) * self.radius_nm
+            let site = |(at_nm, (place, turn)): (f64, (Vector3, UnitQuaternion))| {
+                let radius_nm = self.radius_nm;
+                let azimuth_deg = one.azimuth_at_radius_deg(at_nm, radius_nm);
+                let (sine, cosine) = azimuth_deg.to_radians().sin_cos();
+                let site = LinkerSite {
+                    filament,
+                    at_nm,
+                    radius_nm,
+                    azimuth_deg,
+                };
+                let arm = Vector3::new(cosine, sine, 0.0) * radius_nm;
+                let place = place + turn * arm;
+                Site { site, place }
             };
-            let site = |((at_nm, azimuth_deg), (place, turn)): ((f64, f64), (Vector3, _))| Site {
-                filament,
-                at_nm,
-                azimuth_deg,
-                place: place + turn * arm(azimuth_deg),
-            };
-            let all = places.into_iter().zip(azimuths).zip(axes);
-            all.map(site).collect::<Vec<_>>()
+            places.into_iter().zip(axes).map(site).collect::<Vec<_>>()
         };
         filaments.iter().enumerate().flat_map(of_filament).collect()
     }
@@ -199,7 +180,7 @@ impl LinkersBetween {
                 for &j in near.flatten() {
                     let distance = (place - wrapped[j].1).norm();
                     let is_near = distance <= self.reach_nm && distance >= self.least_reach_nm;
-                    if is_near && sites[j].filament != site.filament {
+                    if is_near && sites[j].site.filament != site.site.filament {
                         let image = |k| shift[k] - home[k] + wrapped[j].0[k];
                         pairs.push(Pair {
                             sites: [j, i],
@@ -251,26 +232,15 @@ impl LinkersBetween {
     }
 
     fn linker(&self, sites: &[Site], pair: Pair) -> Linker {
-        let [site, other] = pair.sites.map(|i| sites[i]);
+        let [site, other] = pair.sites.map(|i| sites[i].site);
         Linker {
-            filament: site.filament,
-            at_nm: site.at_nm,
-            radius_nm: self.radius_nm,
-            azimuth_deg: site.azimuth_deg,
-            to: Some(LinkerSite {
-                filament: other.filament,
-                at_nm: other.at_nm,
-                radius_nm: self.radius_nm,
-                azimuth_deg: other.azimuth_deg,
-            }),
-            anchor_nm: None,
+            to: Some(other),
             image: pair.image,
-            displaced_nm: None,
-            stiffness_pn_per_nm: self.stiffness_pn_per_nm,
             rest_length_nm: self.rest_length_nm.unwrap_or(pair.distance),
             tilt_pn_nm: self.tilt_pn_nm,
             twist_pn_nm: self.twist_pn_nm,
             kinetics: self.kinetics,
+            ..Linker::new(site, self.stiffness_pn_per_nm)
         }
     }
 }
@@ -374,7 +344,7 @@ mod tests {
         let images = planes.flat_map(|(x, y)| (-most..=most).map(move |z| [x, y, z]));
         let images: Vec<[i32; 3]> = images.collect();
         let all = (0..sites.len()).flat_map(|j| (0..j).map(move |i| [i, j]));
-        all.filter(|[i, j]| sites[*i].filament != sites[*j].filament)
+        all.filter(|[i, j]| sites[*i].site.filament != sites[*j].site.filament)
             .flat_map(|pair| images.iter().map(move |image| (pair, *image)))
             .filter(|([i, j], image)| {
                 let shift = periodic.map_or_else(Vector3::zeros, |one| one.shift(*image));

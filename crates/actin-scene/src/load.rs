@@ -2,12 +2,11 @@
 
 use super::{End, Factor, Scene};
 use actin_mechanics::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Load on a filament. The path multiplies `factor` by its own load factor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Load {
     /// Constant force on an end: on the last node of a rod, or half on each of the last two monomers. At a sliding
     /// end it acts on the inner held body. `Force` has more options.
@@ -33,9 +32,7 @@ pub enum Load {
 }
 
 /// Force at one position of a filament.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Force {
     /// Index of the filament.
     #[serde(default)]
@@ -60,9 +57,7 @@ pub struct Force {
 }
 
 /// Couple at one position of a filament.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Couple {
     /// Index of the filament.
     #[serde(default)]
@@ -90,9 +85,7 @@ pub struct Couple {
 }
 
 /// Force per length of the filament at rest.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ForcePerLength {
     /// Index of the filament.
     #[serde(default)]
@@ -114,9 +107,7 @@ pub struct ForcePerLength {
 }
 
 /// Couple per length of the filament at rest.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CouplePerLength {
     /// Index of the filament.
     #[serde(default)]
@@ -138,9 +129,7 @@ pub struct CouplePerLength {
 }
 
 /// Force proportional to mass: weight, or the inertial force in an accelerated frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Acceleration {
     /// Index of the filament.
     #[serde(default)]

@@ -1,28 +1,29 @@
 //! Validation of loads.
 
-use super::rules::{all_finite, check_exactly_one, show};
+use super::rules::{check_exactly_one, check_on_filament, show};
 use super::{
-    ClampedEnds, Couple, Dynamics, Force, FreeTranslation, Hold, Load, Resultant, Scene,
-    SceneProblem,
+    ClampedEnds, Couple, Force, FreeTranslation, Hold, Load, Resultant, Scene, SceneProblem,
 };
 
 impl Load {
     pub(super) fn check(
         &self,
         i: usize,
-        (scene, held): (&Scene, &ClampedEnds),
+        scene: &Scene,
+        held: &ClampedEnds,
     ) -> Result<(), SceneProblem> {
         let key = format!("loads[{i}]");
-        scene.named_filament(&format!("{key}.filament"), self.filament())?;
-        let (name, size) = self.written();
-        all_finite(&format!("{key}.{name}"), size)?;
+        let filament = scene.named_filament(&format!("{key}.filament"), self.filament())?;
+        let length = filament.length_nm();
         self.factor().check(&format!("{key}.factor"))?;
-        self.check_place(&key, scene)?;
-        self.check_interval(&key, scene)?;
-        self.check_end(&key, (scene, held))
+        self.check_place(&key, length)?;
+        if let Some(interval) = self.interval(scene) {
+            check_interval(&key, interval, length)?;
+        }
+        self.check_end(&key, scene, held)
     }
 
-    fn check_place(&self, key: &str, scene: &Scene) -> Result<(), SceneProblem> {
+    fn check_place(&self, key: &str, length: f64) -> Result<(), SceneProblem> {
         let (Self::Force(Force { end, at_nm, .. }) | Self::Couple(Couple { end, at_nm, .. })) =
             self
         else {
@@ -33,46 +34,13 @@ impl Load {
             [("end", end.map(show)), ("at_nm", at_nm.map(show))],
             "position",
         )?;
-        let filament = scene.named_filament(&format!("{key}.filament"), self.filament())?;
-        let length = filament.length_nm();
-        match at_nm.filter(|at| !(0.0..=length).contains(at)) {
-            None => Ok(()),
-            Some(at) => {
-                let rule = format!("must lie on the filament, from 0 to {length:?}");
-                Err(SceneProblem::new(format!("{key}.at_nm"), show(at), rule))
-            }
-        }
-    }
-
-    fn check_interval(&self, key: &str, scene: &Scene) -> Result<(), SceneProblem> {
-        let Some([from, to]) = self.interval(scene) else {
-            return Ok(());
-        };
-        let filament = scene.named_filament(&format!("{key}.filament"), self.filament())?;
-        let length = filament.length_nm();
-        if !(0.0..length).contains(&from) {
-            let rule = format!("must be at least 0 and below the filament's length, {length:?}");
-            return Err(SceneProblem::new(
-                format!("{key}.from_nm"),
-                show(from),
-                rule,
-            ));
-        }
-        if !(to > from && to <= length) {
-            let rule = format!(
-                "must be greater than from_nm = {from:?}, and at most the filament's length, {length:?}"
-            );
-            return Err(SceneProblem::new(format!("{key}.to_nm"), show(to), rule));
-        }
-        Ok(())
+        at_nm.map_or(Ok(()), |at_nm| {
+            check_on_filament(&format!("{key}.at_nm"), at_nm, length)
+        })
     }
 
     /// Refuses a force on an end that cannot move and a couple on an end that cannot rotate.
-    fn check_end(
-        &self,
-        key: &str,
-        (scene, held): (&Scene, &ClampedEnds),
-    ) -> Result<(), SceneProblem> {
+    fn check_end(&self, key: &str, scene: &Scene, held: &ClampedEnds) -> Result<(), SceneProblem> {
         let Some(end) = self.end() else {
             return Ok(());
         };
@@ -113,6 +81,21 @@ impl Load {
     }
 }
 
+fn check_interval(key: &str, [from, to]: [f64; 2], length: f64) -> Result<(), SceneProblem> {
+    if !(0.0..length).contains(&from) {
+        let rule = format!("must be at least 0 and below the filament's length, {length:?}");
+        let key = format!("{key}.from_nm");
+        return Err(SceneProblem::new(key, show(from), rule));
+    }
+    if to > from && to <= length {
+        return Ok(());
+    }
+    let rule = format!(
+        "must be greater than from_nm = {from:?}, and at most the filament's length, {length:?}"
+    );
+    Err(SceneProblem::new(format!("{key}.to_nm"), show(to), rule))
+}
+
 /// Checks for `Equilibrium` that loads have a potential and are constant in time.
 pub(super) fn check_statics(scene: &Scene) -> Result<(), SceneProblem> {
     for (i, load) in scene.loads.iter().enumerate() {
@@ -128,31 +111,4 @@ pub(super) fn check_statics(scene: &Scene) -> Result<(), SceneProblem> {
         }
     }
     Ok(())
-}
-
-/// Checks for `stop` and `leave_saddles` that all factors become constant within the duration.
-pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProblem> {
-    let key = match dynamics {
-        Dynamics { stop: Some(_), .. } => "stop",
-        Dynamics {
-            leave_saddles: 1.., ..
-        } => "leave_saddles",
-        _ => return Ok(()),
-    };
-    let settles = |load: &Load| load.factor().settles_at();
-    let late = |load: &Load| settles(load) >= dynamics.duration_ns;
-    let Some(i) = scene.loads.iter().position(late) else {
-        return Ok(());
-    };
-    let until = settles(&scene.loads[i]);
-    let rule = if until.is_infinite() {
-        format!("loads[{i}] has the factor Sine, so the filament never comes to rest: omit {key}")
-    } else {
-        format!(
-            "the factor of loads[{i}] changes until {until:?} ns, so the filament cannot come to rest within \
-             duration_ns = {:?}: increase duration_ns, or omit {key}",
-            dynamics.duration_ns
-        )
-    };
-    Err(SceneProblem::new(format!("task.{key}"), "", rule))
 }

@@ -1,14 +1,15 @@
 //! Parameters of monomers, rods and junctions.
 
 use super::RodLaw;
-use actin_cosserat::Rigidities;
-use actin_ellipsoid::{EllipsoidParameters, InterfaceParameters, constants};
+use actin_cosserat::{Rigidities, RotaryInertia};
+use actin_coupling::JunctionWeight;
+use actin_ellipsoid::{Anchors, EllipsoidParameters, InterfaceParameters, constants};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the monomers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
 pub struct Monomers {
     /// Seed of sampled bonds. Must be omitted with `Cubature`.
     pub seed: u64,
@@ -17,11 +18,11 @@ pub struct Monomers {
     /// Bonds per lateral interface (monomer i to i + 1): 4 to 64 quadrature bonds, 12 by default; or 1 to 10,000
     /// sampled bonds, 64 by default.
     #[serde(default = "by_anchors")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = 12)))]
+    #[schemars(extend("default" = 12))]
     pub lateral_bonds: usize,
     /// Bonds per longitudinal interface (monomer i to i + 2), with the ranges and defaults of `lateral_bonds`.
     #[serde(default = "by_anchors")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = 12)))]
+    #[schemars(extend("default" = 12))]
     pub longitudinal_bonds: usize,
     /// Shortest bond of either kind; at least 0, less than both largest lengths. Shorter bonds are sampled again.
     pub min_bond_nm: f64,
@@ -47,26 +48,11 @@ pub struct Monomers {
     pub mass_ag: f64,
 }
 
-/// Choice of the bonds of an interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum Anchors {
-    /// Different random bonds in each interface.
-    Independent,
-    /// The same random bonds in all interfaces of a kind.
-    Identical,
-    /// The same quadrature bonds in all interfaces of a kind, which represent the distribution of random bonds: the
-    /// mean filament.
-    Cubature,
-}
-
-impl Anchors {
-    /// Returns the default number of bonds of an interface.
-    pub(crate) fn usual_bonds(self) -> usize {
-        match self {
-            Self::Independent | Self::Identical => constants::BONDS_PER_INTERFACE,
-            Self::Cubature => constants::POINTS_PER_INTERFACE,
-        }
+/// Returns the default number of bonds of an interface.
+fn usual_bonds(anchors: Anchors) -> usize {
+    match anchors {
+        Anchors::Independent | Anchors::Identical => constants::BONDS_PER_INTERFACE,
+        Anchors::Cubature => constants::POINTS_PER_INTERFACE,
     }
 }
 
@@ -78,9 +64,8 @@ fn by_anchors() -> usize {
 }
 
 /// Parameters of the rod.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
 pub struct RodModel {
     /// Force law. `PaperBalance` requires the law `Constant` or `PublishedExtension`.
     pub force_law: ForceLaw,
@@ -103,21 +88,8 @@ impl RodModel {
     }
 }
 
-/// Transverse inertia of a segment. It affects only `Dynamics`, and not the means and fluctuations in a heat bath.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum RotaryInertia {
-    /// Inertia of the cross-section. The time step does not grow with the length of segments above 10 nm.
-    #[default]
-    CrossSection,
-    /// Inertia of the cross-section and of a rigid piece of rod, `mass length^2 / 12`. The time step grows with the
-    /// length of segments; slow bending is slower by `(2 pi length / wavelength)^2 / 24`.
-    RigidSegment,
-}
-
 /// Force law of the rod.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum ForceLaw {
     /// Forces and torques are minus the gradient of an energy.
     #[default]
@@ -127,9 +99,7 @@ pub enum ForceLaw {
 }
 
 /// Rigidities of the rod.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Material {
     /// Table 4 of the paper.
     #[default]
@@ -146,24 +116,13 @@ pub enum Material {
 }
 
 /// Parameters of the junctions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
 pub struct JunctionModel {
     /// Weight of each bond.
     pub weight: JunctionWeight,
     /// Number of attached monomers: 1 or 2.
     pub attached_monomers: usize,
-}
-
-/// Weight of each bond of a junction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum JunctionWeight {
-    /// The bonds of a junction share the rigidity of the rod.
-    Shared,
-    /// Every bond has the full rigidity of the rod, as in the text of the paper.
-    Full,
 }
 
 impl Default for JunctionModel {
@@ -219,7 +178,7 @@ impl Monomers {
     }
 
     pub(super) fn resolve(&mut self) {
-        let usual = self.anchors.usual_bonds();
+        let usual = usual_bonds(self.anchors);
         for bonds in [&mut self.lateral_bonds, &mut self.longitudinal_bonds] {
             if *bonds == BY_ANCHORS {
                 *bonds = usual;
@@ -245,16 +204,6 @@ impl Material {
     }
 }
 
-impl From<Anchors> for actin_ellipsoid::Anchors {
-    fn from(anchors: Anchors) -> Self {
-        match anchors {
-            Anchors::Independent => Self::Independent,
-            Anchors::Identical => Self::Identical,
-            Anchors::Cubature => Self::Cubature,
-        }
-    }
-}
-
 impl From<&Monomers> for EllipsoidParameters {
     fn from(m: &Monomers) -> Self {
         Self {
@@ -275,7 +224,7 @@ impl From<&Monomers> for EllipsoidParameters {
                 minimum_length: m.min_bond_nm,
                 maximum_length: m.longitudinal_max_bond_nm,
             },
-            anchors: m.anchors.into(),
+            anchors: m.anchors,
             seed: m.seed,
             sampling: 0,
             mass: m.mass_ag,
@@ -287,11 +236,7 @@ impl From<&EllipsoidParameters> for Monomers {
     fn from(p: &EllipsoidParameters) -> Self {
         Self {
             seed: p.seed,
-            anchors: match p.anchors {
-                actin_ellipsoid::Anchors::Independent => Anchors::Independent,
-                actin_ellipsoid::Anchors::Identical => Anchors::Identical,
-                actin_ellipsoid::Anchors::Cubature => Anchors::Cubature,
-            },
+            anchors: p.anchors,
             lateral_bonds: p.lateral.bonds,
             longitudinal_bonds: p.longitudinal.bonds,
             min_bond_nm: p.lateral.minimum_length.min(p.longitudinal.minimum_length),

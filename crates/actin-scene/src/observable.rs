@@ -1,7 +1,9 @@
 //! Observables and output files of a scene, and their validation.
 
-use super::rules::{non_negative, positive, show};
+use super::problem::Problems;
+use super::rules::{check_index, check_on_filament, show};
 use super::{ClampedEnds, End, Linker, Scene, SceneProblem, Section};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
@@ -11,9 +13,7 @@ const BURN_IN: f64 = 0.2;
 ///
 /// Names of columns begin with the quantity and the index of the filament or linker, and end with the unit:
 /// `tip[0]_x_nm`. Components are in the lab frame unless stated otherwise.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Observable {
     /// Position of an end: `tip[0]_x_nm`, for the other end `start[0]_x_nm`. For monomers it is the mean of the
     /// outermost two.
@@ -161,8 +161,7 @@ pub enum Observable {
 }
 
 /// Point that moves with a filament.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Point {
     /// End of the filament.
     Tip,
@@ -179,9 +178,8 @@ fn last() -> End {
 }
 
 /// Optional output files of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
 pub struct Output {
     /// True if pictures are written: `vtk` and `run.pvd`.
     pub vtk: bool,
@@ -224,8 +222,7 @@ impl Observable {
         }
     }
 
-    fn check(self, i: usize, (scene, held): (&Scene, &ClampedEnds)) -> Result<(), SceneProblem> {
-        let key = format!("observe[{i}]");
+    fn check(self, key: &str, scene: &Scene, held: &ClampedEnds) -> Result<(), SceneProblem> {
         let length = match self.filament() {
             None => 0.0,
             Some(index) => {
@@ -251,21 +248,19 @@ impl Observable {
                 let rule = "must be from 4 to 10000";
                 Err(SceneProblem::new(key("points"), points, rule))
             }
-            Self::Linker { linker } => check_linker(scene, &key("linker"), linker),
+            Self::Linker { linker } => {
+                check_index(&key("linker"), "linker", linker, scene.linkers.len())
+            }
             Self::Curvature { at_nm, .. }
             | Self::Twist { at_nm, .. }
             | Self::Strain { at_nm, .. }
             | Self::InternalLoad {
                 at_nm: Some(at_nm), ..
-            } if !(0.0..=length).contains(&at_nm) => {
-                let rule = format!("must lie on the filament, from 0 to {length:?}");
-                Err(SceneProblem::new(key("at_nm"), show(at_nm), rule))
-            }
+            } => check_on_filament(&key("at_nm"), at_nm, length),
             Self::SquaredDisplacement {
                 lag_ns: Some(lag), ..
             } => check_lag(scene, &key("lag_ns"), lag),
             Self::TangentCorrelation { over_nm, .. } => {
-                positive(&key("over_nm"), over_nm)?;
                 let rule = || format!("must be below the length of the filament, {length:?}");
                 let refused = || SceneProblem::new(key("over_nm"), show(over_nm), rule());
                 (over_nm < length).then_some(()).ok_or_else(refused)
@@ -275,18 +270,7 @@ impl Observable {
     }
 }
 
-pub(super) fn check_linker(scene: &Scene, key: &str, linker: usize) -> Result<(), SceneProblem> {
-    let rule = match scene.linkers.len() {
-        count if linker < count => return Ok(()),
-        0 => "the scene has no linkers".to_owned(),
-        1 => "the only linker has index 0".to_owned(),
-        count => format!("there are {count} linkers, counted from 0"),
-    };
-    Err(SceneProblem::new(key, linker, rule))
-}
-
 fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> {
-    positive(key, lag_ns)?;
     let rule = match scene.task.motion() {
         None => "Equilibrium is time-independent: omit this key".to_owned(),
         Some(motion) if lag_ns >= motion.duration_ns => {
@@ -297,28 +281,26 @@ fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> 
     Err(SceneProblem::new(key, show(lag_ns), rule))
 }
 
-pub(super) fn check_all(
-    scene: &Scene,
-    held: &ClampedEnds,
-    note: &mut impl FnMut(Result<(), SceneProblem>),
-) {
+pub(super) fn check_all(scene: &Scene, held: &ClampedEnds, problems: &mut Problems) {
     let mut before = HashSet::new();
     for (i, one) in scene.observe.iter().enumerate() {
-        if before.insert(show(one)) {
-            note(one.check(i, (scene, held)));
-        } else {
+        let key = format!("observe[{i}]");
+        let is_new = before.insert(show(one));
+        problems.check(&key, || {
+            if is_new {
+                return one.check(&key, scene, held);
+            }
             let rule = "is in the list already";
-            note(Err(SceneProblem::new(format!("observe[{i}]"), "", rule)));
-        }
+            Err(SceneProblem::new(&key, "", rule))
+        });
     }
-    note(check_burn_in(scene));
+    problems.check("burn_in_ns", || check_burn_in(scene));
 }
 
 fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
     let Some(burn_in) = scene.burn_in_ns else {
         return Ok(());
     };
-    non_negative("burn_in_ns", burn_in)?;
     let rule = match scene.task.motion() {
         Some(motion) if motion.thermal.is_none() => {
             "means require thermal noise: omit this key, or write thermal".to_owned()

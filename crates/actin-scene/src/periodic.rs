@@ -1,8 +1,10 @@
 //! Periodic box, its shear and their validation.
 
-use super::rules::{finite, positive, show};
+use super::problem::Problems;
+use super::rules::show;
 use super::{Factor, Flow, Linker, Repulsion, Scene, SceneProblem, Task};
 use actin_mechanics::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Box that is repeated along x, y and z. Linkers and repulsion act across its faces: filaments are continuous, a
@@ -10,9 +12,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// A shear strain displaces the images along x in proportion to their distance along z, and so does the fluid of
 /// `Brownian`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PeriodicBox {
     /// Edges along x, y and z; positive.
     pub size_nm: [f64; 3],
@@ -42,11 +42,8 @@ impl PeriodicBox {
         Vector3::from_fn(|k, _| f64::from(image[k]) * self.size_nm[k])
     }
 
-    /// Checks that the edges are positive and at least twice the contact distance (nm) of filaments.
+    /// Checks that the edges are at least twice the contact distance (nm) of filaments.
     pub(super) fn check_size(&self, contact: f64) -> Result<(), SceneProblem> {
-        for edge in self.size_nm {
-            positive("periodic.size_nm", edge)?;
-        }
         let short = self.size_nm.into_iter().find(|edge| *edge < 2.0 * contact);
         let Some(edge) = short else {
             return Ok(());
@@ -107,23 +104,23 @@ impl PeriodicBox {
 }
 
 /// Checks the box and incompatible keys.
-pub(super) fn check(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
+pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     for (i, linker) in scene.linkers.iter().enumerate() {
-        note(check_image(scene, i, linker));
+        problems.note(check_image(scene, i, linker));
     }
     let Some(periodic) = &scene.periodic else {
         return;
     };
     let repulsion = scene.repulsion.as_ref();
-    note(periodic.check_size(repulsion.map_or(0.0, Repulsion::contact_nm)));
-    note(check_strain(scene, periodic));
-    note(check_excluded(scene));
-    note(check_reach(scene, periodic));
+    let contact = repulsion.map_or(0.0, Repulsion::contact_nm);
+    problems.check("periodic.size_nm", || periodic.check_size(contact));
+    problems.check("periodic", || check_strain(scene, periodic));
+    problems.note(check_excluded(scene));
+    problems.check("periodic.size_nm", || check_reach(scene, periodic));
 }
 
 /// Checks the factor of the strain in a path.
 pub(super) fn check_factor(scene: &Scene, key: &str, factor: f64) -> Result<(), SceneProblem> {
-    finite(key, factor)?;
     if scene.periodic.as_ref().is_some_and(|one| one.strain != 0.0) {
         return Ok(());
     }
@@ -133,7 +130,6 @@ pub(super) fn check_factor(scene: &Scene, key: &str, factor: f64) -> Result<(), 
 
 fn check_strain(scene: &Scene, periodic: &PeriodicBox) -> Result<(), SceneProblem> {
     let (key, strain) = ("periodic.strain", periodic.strain);
-    finite(key, strain)?;
     periodic.factor.check("periodic.factor")?;
     if strain.abs() > MOST_STRAIN {
         let rule = format!("must be at most {MOST_STRAIN} in magnitude");
@@ -192,12 +188,8 @@ fn check_image(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProb
         return Ok(());
     }
     let refused = |rule: &str| {
-        let value = format!("{:?}", linker.image);
-        Err(SceneProblem::new(
-            format!("linkers[{i}].image"),
-            value,
-            rule,
-        ))
+        let key = format!("linkers[{i}].image");
+        Err(SceneProblem::new(key, show(linker.image), rule))
     };
     match (&scene.periodic, &linker.to) {
         (None, _) => refused("requires a periodic box: write periodic, or omit this key"),

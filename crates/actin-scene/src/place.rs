@@ -1,6 +1,7 @@
 //! Filaments by index, and their reference positions.
 
 use super::curve::Curve;
+use super::rules::check_index;
 use super::types::along_z;
 use super::{
     End, Filament, FreeTranslation, Hold, JunctionModel, Monomers, RodModel, Scene, SceneProblem,
@@ -134,7 +135,7 @@ impl Filament {
 
     /// Returns whether the section at one end is a rod.
     pub(crate) fn is_rod_at(&self, end: End) -> bool {
-        matches!(self.sections[self.end_index(end)], Section::Rod { .. })
+        self.sections[self.end_index(end)].is_rod()
     }
 }
 
@@ -180,58 +181,59 @@ impl Scene {
         key: &str,
         index: usize,
     ) -> Result<&Filament, SceneProblem> {
-        self.filament_at(index).ok_or_else(|| {
-            let rule = match self.number_of_filaments() {
-                1 => "the only filament has index 0".to_owned(),
-                count => format!("there are {count} filaments, counted from 0"),
-            };
-            SceneProblem::new(key, index, rule)
-        })
+        check_index(key, "filament", index, self.number_of_filaments())?;
+        Ok(self.filament_at(index).unwrap_or(&self.filament))
     }
 }
 
 /// Clamps by filament and end.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ClampedEnds {
-    clamps: Vec<[Option<usize>; 2]>,
-    fixed: Vec<[Option<usize>; 2]>,
-    turned: Vec<[Option<usize>; 2]>,
+    held: Vec<[Option<HeldEnd>; 2]>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct HeldEnd {
+    clamp: usize,
+    is_pinned: bool,
+    has_hinge: bool,
 }
 
 impl ClampedEnds {
     /// Finds the clamps of a scene. The first clamp of an end counts; invalid filament indices are skipped.
     pub fn new(scene: &Scene) -> Self {
         let mut held = vec![[None; 2]; scene.number_of_filaments()];
-        for (i, clamp) in scene.clamps.iter().enumerate() {
-            if let Some(ends) = held.get_mut(clamp.filament) {
-                ends[clamp.end as usize].get_or_insert(i);
+        for (clamp, one) in scene.clamps.iter().enumerate() {
+            if let Some(ends) = held.get_mut(one.filament) {
+                ends[one.end as usize].get_or_insert(HeldEnd {
+                    clamp,
+                    is_pinned: one.hold == Hold::Pin,
+                    has_hinge: one.hinge.is_some(),
+                });
             }
         }
-        let is_fixed = |clamp: &usize| scene.clamps[*clamp].hold != Hold::Pin;
-        let is_turned = |clamp: &usize| is_fixed(clamp) || scene.clamps[*clamp].hinge.is_some();
-        let fixed = held.iter().map(|ends| ends.map(|c| c.filter(is_fixed)));
-        let turned = held.iter().map(|ends| ends.map(|c| c.filter(is_turned)));
-        Self {
-            fixed: fixed.collect(),
-            turned: turned.collect(),
-            clamps: held,
-        }
+        Self { held }
+    }
+
+    fn find(&self, filament: usize, end: End, is_found: fn(&HeldEnd) -> bool) -> Option<usize> {
+        let held = self.held.get(filament)?[end as usize].filter(is_found);
+        held.map(|held| held.clamp)
     }
 
     /// Returns the index of the clamp at one end of a filament, or `None` if the end is free.
     pub fn clamp_at(&self, filament: usize, end: End) -> Option<usize> {
-        self.clamps.get(filament)?[end as usize]
+        self.find(filament, end, |_| true)
     }
 
     /// Returns the index of the clamp at one end if it holds the orientation, which a pin does not.
     pub fn fixed_at(&self, filament: usize, end: End) -> Option<usize> {
-        self.fixed.get(filament)?[end as usize]
+        self.find(filament, end, |held| !held.is_pinned)
     }
 
     /// Returns the index of the clamp at one end if it has a frame: at the end, or at the other side of a
     /// hinge.
     pub fn turned_at(&self, filament: usize, end: End) -> Option<usize> {
-        self.turned.get(filament)?[end as usize]
+        self.find(filament, end, |held| !held.is_pinned || held.has_hinge)
     }
 
     /// Returns whether an end is clamped.

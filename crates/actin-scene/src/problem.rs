@@ -49,6 +49,40 @@ impl fmt::Display for SceneProblem {
 
 impl std::error::Error for SceneProblem {}
 
+/// Problems of a scene: the first `most`, one for each key.
+pub(super) struct Problems {
+    pub(super) found: Vec<SceneProblem>,
+    most: usize,
+}
+
+impl Problems {
+    pub(super) fn new(most: usize) -> Self {
+        let found = Vec::new();
+        Self { found, most }
+    }
+
+    /// Adds the problem of a check that failed.
+    pub(super) fn note(&mut self, checked: Result<(), SceneProblem>) {
+        let problem = checked.err().filter(|_| self.found.len() < self.most);
+        let is_new = |problem: &SceneProblem| self.found.iter().all(|p| p.key != problem.key);
+        let new = problem.filter(is_new);
+        self.found.extend(new);
+    }
+
+    /// Checks a rule of the value at `key`, unless a number in it is invalid.
+    pub(super) fn check(&mut self, key: &str, rule: impl FnOnce() -> Result<(), SceneProblem>) {
+        let is_full = self.found.len() >= self.most;
+        if !is_full && !self.found.iter().any(|p| p.key.starts_with(key)) {
+            self.note(rule());
+        }
+    }
+
+    /// Returns the first problem as an error.
+    pub(super) fn into_result(self) -> Result<(), SceneProblem> {
+        self.found.into_iter().next().map_or(Ok(()), Err)
+    }
+}
+
 /// Error of a scene with its position in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {

@@ -1,9 +1,11 @@
 //! Repulsion of filaments from each other and from walls, and its validation.
 
-use super::rules::{all_finite, direction, each_positive, positive, show};
+use super::problem::Problems;
+use super::rules::show;
 use super::{Scene, SceneProblem};
 use actin_coupling::repulsion::{RepulsionError, Side, Wall};
 use actin_mechanics::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Radius (nm) that contains a monomer: centre at 1.8 nm, radial semi-axis 1.9 nm.
@@ -20,9 +22,8 @@ const STIFFNESS_PN_PER_NM: f64 = 1000.0;
 /// force is largest, `0.70 k R`, at `d = 2 R/3`. A run fails if two filaments are closer than this in a record,
 /// or closer than half of it at any time: they would pass through each other. `Equilibrium` rejects such steps.
 /// A wall exerts the force per length `k p^3/(6 R^3)` on a filament whose surface penetrates it by `p`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
 pub struct Repulsion {
     /// True if filaments repel each other. Parts of the same filament repel each other if their distance along
     /// it is at least three segments, three rises and `pi R`. `false` requires a wall.
@@ -43,9 +44,7 @@ pub struct Repulsion {
 }
 
 /// Plane wall.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Plane {
     /// Point of the plane (lab frame); finite.
     pub at_nm: [f64; 3],
@@ -54,9 +53,7 @@ pub struct Plane {
 }
 
 /// Spherical wall.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Sphere {
     /// Centre (lab frame); finite.
     pub at_nm: [f64; 3],
@@ -67,9 +64,7 @@ pub struct Sphere {
 }
 
 /// Cylindrical wall of infinite length.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Cylinder {
     /// Point of the axis (lab frame); finite.
     pub at_nm: [f64; 3],
@@ -82,9 +77,7 @@ pub struct Cylinder {
 }
 
 /// Box of six plane walls around the filaments.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Cuboid {
     /// Centre (lab frame); finite.
     pub at_nm: [f64; 3],
@@ -155,39 +148,47 @@ impl Repulsion {
         }
     }
 
-    /// Checks all numbers.
-    pub(super) fn first_problem(&self) -> Result<(), SceneProblem> {
-        let mut first = Ok(());
-        self.check(&mut |result| {
-            if first.is_ok() {
-                first = result;
-            }
-        });
-        first
-    }
-
-    fn check(&self, note: &mut impl FnMut(Result<(), SceneProblem>)) {
+    /// Checks the rules of walls, whose numbers must be valid.
+    pub(super) fn check(&self, problems: &mut Problems) {
         if !self.filaments && !self.has_walls() {
             let rule = "repulsion has no effect: write planes, spheres, cylinders or cuboids, or omit this key";
-            note(Err(SceneProblem::new("repulsion.filaments", false, rule)));
+            let problem = SceneProblem::new("repulsion.filaments", false, rule);
+            problems.note(Err(problem));
         }
-        note(positive("repulsion.radius_nm", self.radius_nm));
-        let stiffness = self.stiffness_pn_per_nm;
-        note(positive("repulsion.stiffness_pn_per_nm", stiffness));
+        let spheres = self.spheres.iter().map(|one| (one.radius_nm, one.side));
+        let cylinders = self.cylinders.iter().map(|one| (one.radius_nm, one.side));
+        let round = (spheres.enumerate().map(|(i, one)| ("sphere", i, one)))
+            .chain(cylinders.enumerate().map(|(i, one)| ("cylinder", i, one)));
+        for (shape, index, (radius_nm, side)) in round {
+            let key = WallName { shape, index }.key();
+            problems.check(&key, || self.check_radius(&key, radius_nm, side));
+        }
+        for (index, cuboid) in self.cuboids.iter().enumerate() {
+            let shape = "cuboid";
+            let key = WallName { shape, index }.key();
+            problems.check(&key, || self.check_edges(&key, cuboid));
+        }
+    }
+
+    /// Checks the radius of a round wall, which contains filaments inside.
+    fn check_radius(&self, key: &str, radius_nm: f64, side: Side) -> Result<(), SceneProblem> {
         let radius = self.radius_nm;
-        let key = |shape, index| WallName { shape, index }.key();
-        for (i, plane) in self.planes.iter().enumerate() {
-            note(plane.check(&key("plane", i)));
+        if side == Side::Outside || radius_nm > radius {
+            return Ok(());
         }
-        for (i, sphere) in self.spheres.iter().enumerate() {
-            note(sphere.check(&key("sphere", i), radius));
+        let rule = format!("must be greater than the radius of filaments inside, {radius:?}");
+        let key = format!("{key}.radius_nm");
+        Err(SceneProblem::new(key, show(radius_nm), rule))
+    }
+
+    fn check_edges(&self, key: &str, cuboid: &Cuboid) -> Result<(), SceneProblem> {
+        let diameter = 2.0 * self.radius_nm;
+        if cuboid.size_nm.iter().all(|edge| *edge > diameter) {
+            return Ok(());
         }
-        for (i, cylinder) in self.cylinders.iter().enumerate() {
-            note(cylinder.check(&key("cylinder", i), radius));
-        }
-        for (i, cuboid) in self.cuboids.iter().enumerate() {
-            note(cuboid.check(&key("cuboid", i), radius));
-        }
+        let rule = format!("each must be greater than the diameter of filaments, {diameter:?}");
+        let key = format!("{key}.size_nm");
+        Err(SceneProblem::new(key, show(cuboid.size_nm), rule))
     }
 }
 
@@ -205,21 +206,11 @@ impl Plane {
     fn wall(&self) -> Result<Wall, RepulsionError> {
         Wall::plane(self.at_nm.into(), self.normal.into())
     }
-
-    fn check(&self, key: &str) -> Result<(), SceneProblem> {
-        all_finite(&format!("{key}.at_nm"), self.at_nm)?;
-        direction(&format!("{key}.normal"), self.normal)
-    }
 }
 
 impl Sphere {
     fn wall(&self) -> Result<Wall, RepulsionError> {
         Wall::sphere(self.at_nm.into(), self.radius_nm, self.side)
-    }
-
-    fn check(&self, key: &str, of_filaments: f64) -> Result<(), SceneProblem> {
-        all_finite(&format!("{key}.at_nm"), self.at_nm)?;
-        check_radius(key, (self.radius_nm, self.side), of_filaments)
     }
 }
 
@@ -232,12 +223,6 @@ impl Cylinder {
             self.side,
         )
     }
-
-    fn check(&self, key: &str, of_filaments: f64) -> Result<(), SceneProblem> {
-        all_finite(&format!("{key}.at_nm"), self.at_nm)?;
-        direction(&format!("{key}.axis"), self.axis)?;
-        check_radius(key, (self.radius_nm, self.side), of_filaments)
-    }
 }
 
 impl Cuboid {
@@ -247,39 +232,6 @@ impl Cuboid {
             let outward = Vector3::ith(face / 2, if face % 2 == 0 { -1.0 } else { 1.0 });
             Wall::plane(centre + outward * (0.5 * self.size_nm[face / 2]), -outward)
         })
-    }
-
-    fn check(&self, key: &str, of_filaments: f64) -> Result<(), SceneProblem> {
-        all_finite(&format!("{key}.at_nm"), self.at_nm)?;
-        let key = format!("{key}.size_nm");
-        each_positive(&key, self.size_nm)?;
-        if self.size_nm.iter().any(|edge| *edge <= 2.0 * of_filaments) {
-            let diameter = 2.0 * of_filaments;
-            let rule = format!("each must be greater than the diameter of filaments, {diameter:?}");
-            return Err(SceneProblem::new(key, show(self.size_nm), rule));
-        }
-        Ok(())
-    }
-}
-
-/// Checks the radius of a round wall, which contains filaments inside.
-fn check_radius(
-    key: &str,
-    (radius_nm, side): (f64, Side),
-    of_filaments: f64,
-) -> Result<(), SceneProblem> {
-    let key = format!("{key}.radius_nm");
-    positive(&key, radius_nm)?;
-    if side == Side::Inside && radius_nm <= of_filaments {
-        let rule = format!("must be greater than the radius of filaments inside, {of_filaments:?}");
-        return Err(SceneProblem::new(key, show(radius_nm), rule));
-    }
-    Ok(())
-}
-
-pub(super) fn check(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
-    if let Some(repulsion) = &scene.repulsion {
-        repulsion.check(note);
     }
 }
 

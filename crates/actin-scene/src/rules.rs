@@ -9,60 +9,37 @@ pub(super) fn show(value: impl Debug) -> String {
     format!("{value:?}")
 }
 
-pub(super) fn finite(key: &str, value: f64) -> Result<(), SceneProblem> {
-    if value.is_finite() {
-        return Ok(());
-    }
-    Err(SceneProblem::new(key, show(value), "must be finite"))
-}
-
 pub(super) fn positive(key: &str, value: f64) -> Result<(), SceneProblem> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
     }
-    Err(SceneProblem::new(
-        key,
-        show(value),
-        "must be finite and greater than 0",
-    ))
+    let rule = "must be finite and greater than 0";
+    Err(SceneProblem::new(key, show(value), rule))
 }
 
-pub(super) fn non_negative(key: &str, value: f64) -> Result<(), SceneProblem> {
-    if value.is_finite() && value >= 0.0 {
+/// Checks an arc length (nm) on a filament of a length (nm).
+pub(super) fn check_on_filament(key: &str, at_nm: f64, length: f64) -> Result<(), SceneProblem> {
+    if (0.0..=length).contains(&at_nm) {
         return Ok(());
     }
-    Err(SceneProblem::new(
-        key,
-        show(value),
-        "must be finite and not negative",
-    ))
+    let rule = format!("must lie on the filament, from 0 to {length:?}");
+    Err(SceneProblem::new(key, show(at_nm), rule))
 }
 
-pub(super) fn all_finite(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
-    if values.iter().all(|v| v.is_finite()) {
-        return Ok(());
-    }
-    Err(SceneProblem::new(key, show(values), "must be finite"))
-}
-
-/// Checks that three numbers are finite and not all zero.
-pub(super) fn direction(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
-    all_finite(key, values)?;
-    if values.iter().any(|v| v.abs() > 0.0) {
-        return Ok(());
-    }
-    Err(SceneProblem::new(key, show(values), "must not be zero"))
-}
-
-pub(super) fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
-    if values.iter().all(|v| v.is_finite() && *v > 0.0) {
-        return Ok(());
-    }
-    Err(SceneProblem::new(
-        key,
-        show(values),
-        "each must be finite and greater than 0",
-    ))
+/// Checks the index of one of `count` elements, such as a `linker`.
+pub(super) fn check_index(
+    key: &str,
+    element: &str,
+    index: usize,
+    count: usize,
+) -> Result<(), SceneProblem> {
+    let rule = match count {
+        _ if index < count => return Ok(()),
+        0 => format!("the scene has no {element}s"),
+        1 => format!("the only {element} has index 0"),
+        _ => format!("there are {count} {element}s, counted from 0"),
+    };
+    Err(SceneProblem::new(key, index, rule))
 }
 
 /// Checks that the radius of curvature exceeds the radius of the filament. `curvature` is in 1/nm.
@@ -83,16 +60,11 @@ pub(super) fn check_curvature(
 
 /// Checks that the forces of a filament have a potential, which `PaperBalance` does not.
 pub(super) fn check_potential(filament: &Filament) -> Result<(), SceneProblem> {
-    let has_rod = filament
-        .sections
-        .iter()
-        .any(|s| matches!(s, Section::Rod { .. }));
+    let has_rod = filament.sections.iter().any(Section::is_rod);
     if has_rod && filament.rod.force_law == ForceLaw::PaperBalance {
-        return Err(SceneProblem::new(
-            "filament.rod.force_law",
-            "PaperBalance",
-            "has no potential, which Equilibrium and Brownian require: write EnergyGradient",
-        ));
+        let rule = "has no potential, which Equilibrium and Brownian require: write EnergyGradient";
+        let key = "filament.rod.force_law";
+        return Err(SceneProblem::new(key, "PaperBalance", rule));
     }
     Ok(())
 }

@@ -1,16 +1,18 @@
 //! Scene as written: a single `filament` or a list of `filaments`.
 
+use super::problem::Problems;
+use super::serialize::to_value;
 use super::validate::check_filament;
 use super::{
     Arrangement, Bead, Clamp, Crosslinkers, Filament, Linker, LinkersBetween, Load, Observable,
-    Output, PeriodicBox, Repulsion, Scene, SceneProblem, Stage, Start, Task,
+    Output, PeriodicBox, Repulsion, Scene, SceneProblem, Stage, Start, Task, numbers,
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, clamps, loads, linkers and a task.
-#[derive(Clone, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, rename = "Scene")]
+#[derive(Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "Scene")]
 pub(super) struct SceneFile {
     /// Title of the scene.
     #[serde(default)]
@@ -78,26 +80,29 @@ impl TryFrom<SceneFile> for Scene {
 
     /// Collects the filaments of all keys, then the linkers.
     fn try_from(mut written: SceneFile) -> Result<Self, SceneProblem> {
-        let mut filaments = listed(
-            written.filament.take(),
-            written.filaments.take(),
-            !written.arrangements.is_empty(),
-        )?;
-        arrange(&written, &mut filaments)?;
-        let linkers = linkers(
-            written.linkers,
-            (&written.linker_sets, &written.crosslinkers),
-            (&filaments, written.periodic.as_ref()),
-        )?;
-        let mut resolved = filaments.into_iter().map(|mut filament| {
+        written.check_generated()?;
+        let mut filaments = written.take_filaments()?;
+        let surroundings = (written.repulsion.as_ref(), written.periodic.as_ref());
+        for (k, arrangement) in written.arrangements.iter().enumerate() {
+            let arranged = arrangement.filaments(k, &filaments, surroundings)?;
+            filaments.extend(arranged);
+        }
+        let mut linkers = written.linkers;
+        for (k, set) in written.linker_sets.iter().enumerate() {
+            linkers.extend(set.linkers(k, &filaments, written.periodic.as_ref())?);
+        }
+        for (k, pool) in written.crosslinkers.iter().enumerate() {
+            linkers.extend(pool.linkers(k, &filaments)?);
+        }
+        for filament in &mut filaments {
             filament.monomers.resolve();
-            filament
-        });
+        }
+        let mut filaments = filaments.into_iter();
         let none = || SceneProblem::new("filaments", "[]", "a scene has at least one filament");
         Ok(Self {
             title: written.title,
-            filament: resolved.next().ok_or_else(none)?,
-            other_filaments: resolved.collect(),
+            filament: filaments.next().ok_or_else(none)?,
+            other_filaments: filaments.collect(),
             clamps: written.clamps,
             loads: written.loads,
             linkers,
@@ -114,54 +119,45 @@ impl TryFrom<SceneFile> for Scene {
     }
 }
 
-/// Appends the arranged filaments.
-fn arrange(written: &SceneFile, filaments: &mut Vec<Filament>) -> Result<(), SceneProblem> {
-    let (repulsion, periodic) = (written.repulsion.as_ref(), written.periodic.as_ref());
-    let contact = repulsion.map_or(0.0, Repulsion::contact_nm);
-    for (k, arrangement) in written.arrangements.iter().enumerate() {
-        let mut one = arrangement.filament().clone();
-        one.monomers.resolve();
-        repulsion.map_or(Ok(()), Repulsion::first_problem)?;
-        periodic.map_or(Ok(()), |periodic| periodic.check_size(contact))?;
-        check_filament(&one, &format!("arrangements[{k}].filament"))?;
-        let arranged = arrangement.filaments(k, filaments, (repulsion, periodic))?;
-        filaments.extend(arranged);
-    }
-    Ok(())
-}
-
-/// Returns the listed linkers, followed by the linkers of sets and pools.
-fn linkers(
-    mut linkers: Vec<Linker>,
-    (sets, pools): (&[LinkersBetween], &[Crosslinkers]),
-    (filaments, periodic): (&[Filament], Option<&PeriodicBox>),
-) -> Result<Vec<Linker>, SceneProblem> {
-    for (k, set) in sets.iter().enumerate() {
-        linkers.extend(set.linkers(k, filaments, periodic)?);
-    }
-    for (k, pool) in pools.iter().enumerate() {
-        linkers.extend(pool.linkers(k, filaments)?);
-    }
-    Ok(linkers)
-}
-
-/// Returns the filaments of the keys `filament` or `filaments`. Scenes with arrangements may omit both.
-fn listed(
-    alone: Option<Filament>,
-    several: Option<Vec<Filament>>,
-    is_arranged: bool,
-) -> Result<Vec<Filament>, SceneProblem> {
-    match (alone, several) {
-        (Some(filament), None) => Ok(vec![filament]),
-        (None, Some(filaments)) => Ok(filaments),
-        (None, None) if is_arranged => Ok(Vec::new()),
-        (None, None) => {
-            let rule = "is missing: write filament, filaments or arrangements";
-            Err(SceneProblem::new("filament", "", rule))
+impl SceneFile {
+    /// Checks the numbers that determine generated filaments and linkers, and the filaments and the space of
+    /// arrangements.
+    fn check_generated(&self) -> Result<(), SceneProblem> {
+        let has_linkers = !(self.linker_sets.is_empty() && self.crosslinkers.is_empty());
+        let mut problems = Problems::new(1);
+        if has_linkers || !self.arrangements.is_empty() {
+            numbers::check(&to_value(self, false), &mut problems);
         }
-        (Some(_), Some(_)) => {
-            let rule = "the scene already has the key `filament`: write one of the two keys";
-            Err(SceneProblem::new("filaments", "", rule))
+        for (k, arrangement) in self.arrangements.iter().enumerate() {
+            if let Some(repulsion) = &self.repulsion {
+                repulsion.check(&mut problems);
+            }
+            if let Some(periodic) = &self.periodic {
+                let contact = self.repulsion.as_ref().map_or(0.0, Repulsion::contact_nm);
+                problems.note(periodic.check_size(contact));
+            }
+            let mut filament = arrangement.filament().clone();
+            filament.monomers.resolve();
+            let key = format!("arrangements[{k}].filament");
+            check_filament(&filament, &key, &mut problems);
+        }
+        problems.into_result()
+    }
+
+    /// Returns the filaments of the keys `filament` or `filaments`. Scenes with arrangements may omit both.
+    fn take_filaments(&mut self) -> Result<Vec<Filament>, SceneProblem> {
+        match (self.filament.take(), self.filaments.take()) {
+            (Some(filament), None) => Ok(vec![filament]),
+            (None, Some(filaments)) => Ok(filaments),
+            (None, None) if !self.arrangements.is_empty() => Ok(Vec::new()),
+            (None, None) => {
+                let rule = "is missing: write filament, filaments or arrangements";
+                Err(SceneProblem::new("filament", "", rule))
+            }
+            (Some(_), Some(_)) => {
+                let rule = "the scene already has the key `filament`: write one of the two keys";
+                Err(SceneProblem::new("filaments", "", rule))
+            }
         }
     }
 }

@@ -1,13 +1,17 @@
 //! JSON schema of scenes.
 
 use super::scene_file::SceneFile;
+use schemars::Schema;
+use schemars::transform::{RecursiveTransform, Transform};
 use serde_json::{Value, json};
 
 /// Returns the JSON schema of a scene, with the type, default and meaning of every key. `Name(key: value)` of
 /// an enum is an object with the single key `Name`, or the string `Name` if all keys have defaults. Relations
 /// between numbers are described in words; [`crate::Scene::from_ron`] checks them.
 pub fn schema() -> Value {
-    let mut schema = schemars::schema_for!(SceneFile).to_value();
+    let mut schema = schemars::schema_for!(SceneFile);
+    RecursiveTransform(refuse_unknown_keys).transform(&mut schema);
+    let mut schema = schema.to_value();
     let definitions = schema["$defs"].clone();
     let all = definitions.as_object();
     for name in all.into_iter().flat_map(|all| all.keys()) {
@@ -20,6 +24,12 @@ pub fn schema() -> Value {
         }
     }
     schema
+}
+
+fn refuse_unknown_keys(schema: &mut Schema) {
+    if schema.get("type") == Some(&json!("object")) {
+        schema.insert("additionalProperties".to_owned(), json!(false));
+    }
 }
 
 /// Returns the schema of the name alone for a choice whose keys all have defaults.

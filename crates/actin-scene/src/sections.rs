@@ -1,7 +1,8 @@
 //! Sections of a filament: listed, chosen by the program, or adapted during a motion.
 
-use super::rules::{positive, show};
+use super::rules::show;
 use super::{AdaptiveResolution, SceneProblem, Section};
+use schemars::JsonSchema;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{EnumAccess, Error as _, SeqAccess, Unexpected, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -40,9 +41,7 @@ enum AutoSections {
 /// resolution with the least work among those within the target errors. For an equilibrium without a limit of
 /// monomers the choice is monomers everywhere, since the measured errors require this run. Not available with
 /// thermal noise.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Adaptive {
     /// Length of the filament; positive. It is rounded to a whole number of monomers.
     pub length_nm: f64,
@@ -65,9 +64,7 @@ impl Adaptive {
 }
 
 /// Target quantity of the equilibrium, with its largest relative error.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Want")]
 pub enum Target {
     /// Displacement of the end of the filament.
@@ -112,9 +109,7 @@ pub enum Target {
 }
 
 /// Quantity of an equilibrium.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Quantity {
     /// Displacement of the end of the filament (nm).
     Tip,
@@ -150,9 +145,7 @@ impl Quantity {
             Self::Curvature { .. } => "rad/nm",
         }
     }
-}
 
-impl Quantity {
     /// Formats a value with its unit.
     pub fn show(self, value: f64) -> String {
         match self {
@@ -203,20 +196,18 @@ impl Target {
 
 const FEWEST_MONOMERS: usize = 13;
 
-pub(super) fn check_adaptive(adaptive: &Adaptive) -> Result<(), SceneProblem> {
-    positive("filament.sections.length_nm", adaptive.length_nm)?;
+/// Checks automatic sections, whose keys begin with `key`.
+pub(super) fn check_adaptive(key: &str, adaptive: &Adaptive) -> Result<(), SceneProblem> {
     if let Some(few) = adaptive.monomers.filter(|&most| most < FEWEST_MONOMERS) {
         let rule = format!("must be at least {FEWEST_MONOMERS}, a period of the helix");
-        return Err(SceneProblem::new("filament.sections.monomers", few, rule));
+        return Err(SceneProblem::new(format!("{key}.monomers"), few, rule));
     }
     let mut errors = adaptive.targets().map(Target::error);
     let Some(error) = errors.find(|error| !(*error > 0.0 && *error < 1.0)) else {
         return Ok(());
     };
-    let (key, rule) = (
-        "filament.sections.want.error",
-        "must be greater than 0 and below 1",
-    );
+    let rule = "must be greater than 0 and below 1";
+    let key = format!("{key}.want.error");
     Err(SceneProblem::new(key, show(error), rule))
 }
 
@@ -227,6 +218,11 @@ impl Sections {
             Some(AutoSections::Adaptive(adaptive)) => Some(adaptive),
             _ => None,
         }
+    }
+
+    /// Returns whether the program chooses the sections.
+    pub(crate) fn is_automatic(&self) -> bool {
+        self.automatic.is_some()
     }
 
     /// Makes the sections follow a motion.
@@ -338,8 +334,7 @@ impl<'de> Visitor<'de> for SectionsVisitor {
     }
 }
 
-#[cfg(feature = "schema")]
-impl schemars::JsonSchema for Sections {
+impl JsonSchema for Sections {
     fn schema_name() -> std::borrow::Cow<'static, str> {
         "Sections".into()
     }

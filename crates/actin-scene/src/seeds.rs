@@ -1,11 +1,11 @@
 //! Seeds of the random parts of a scene.
 
 use super::{Anchors, Scene, Section, Task};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Random part of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Drawn")]
 pub enum RandomPart {
     /// Sampled bonds of monomers (`monomers.seed`).
@@ -30,12 +30,9 @@ impl Scene {
         match what {
             RandomPart::Bonds => {
                 let drawing = self.filaments_mut().filter(|filament| {
-                    let is_monomers = |s: &Section| matches!(s, Section::Ellipsoids { .. });
                     let sections = &filament.sections;
-                    let is_automatic =
-                        sections.adaptive().is_some() || sections.following().is_some();
                     filament.monomers.anchors != Anchors::Cubature
-                        && (is_automatic || sections.iter().any(is_monomers))
+                        && (sections.is_automatic() || !sections.iter().all(Section::is_rod))
                 });
                 drawing.map(|f| f.monomers.seed = seed).count()
             }

@@ -1,9 +1,10 @@
 //! Initial shape of a filament and its validation.
 
 use super::curve::Curve;
-use super::rules::{check_curvature, finite, positive, show};
+use super::rules::{check_curvature, show};
 use super::{Filament, SceneProblem};
 use actin_cosserat::constants::cross_section_radius;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -12,9 +13,7 @@ use std::f64::consts::TAU;
 ///
 /// Cross-sections follow the curve (parallel transport), from `roll_deg` at the start, and have the rest twist of
 /// the sections.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Shape {
     /// Arc of a circle that starts along `direction`; shorter than the full circle.
     Arc {
@@ -63,32 +62,18 @@ pub(super) fn check(filament: &Filament) -> Result<(), SceneProblem> {
     if filament.sections.is_empty() {
         return Ok(());
     }
-    let key = |name: &str| format!("filament.shape.{name}");
     let length = filament.length_nm();
     match shape {
-        Shape::Arc {
-            radius_nm,
-            azimuth_deg,
-        } => {
-            positive(&key("radius_nm"), *radius_nm)?;
-            finite(&key("azimuth_deg"), *azimuth_deg)?;
-            check_curvature(&key("radius_nm"), show(radius_nm), radius_nm.recip())?;
-            check_open(
-                &key("radius_nm"),
-                show(radius_nm),
-                (length, TAU * radius_nm),
-            )?;
+        Shape::Arc { radius_nm, .. } => {
+            let key = "filament.shape.radius_nm";
+            check_curvature(key, show(radius_nm), radius_nm.recip())?;
+            check_open(key, show(radius_nm), (length, TAU * radius_nm))?;
         }
         Shape::Helix {
             radius_nm,
             pitch_nm,
-            azimuth_deg,
-        } => {
-            positive(&key("radius_nm"), *radius_nm)?;
-            finite(&key("pitch_nm"), *pitch_nm)?;
-            finite(&key("azimuth_deg"), *azimuth_deg)?;
-            check_helix(length, *radius_nm, *pitch_nm)?;
-        }
+            ..
+        } => check_helix(length, *radius_nm, *pitch_nm)?,
         Shape::Points { nm, file } => check_points(nm, file.as_deref())?,
         Shape::AtRest => {}
     }
@@ -116,11 +101,8 @@ fn check_helix(length: f64, radius: f64, pitch: f64) -> Result<(), SceneProblem>
         let rule = format!(
             "neighbouring turns are {distance:.1} nm apart, less than the filament's diameter of {diameter:.1} nm"
         );
-        return Err(SceneProblem::new(
-            "filament.shape.pitch_nm",
-            show(pitch),
-            rule,
-        ));
+        let key = "filament.shape.pitch_nm";
+        return Err(SceneProblem::new(key, show(pitch), rule));
     }
     Ok(())
 }
@@ -136,7 +118,6 @@ fn check_points(nm: &[[f64; 3]], file: Option<&str>) -> Result<(), SceneProblem>
         return Err(SceneProblem::new(key, "", rule));
     }
     for (i, point) in nm.iter().enumerate() {
-        super::rules::all_finite(&format!("{key}[{i}]"), *point)?;
         let is_before =
             |other: &[f64; 3]| other.iter().zip(point).all(|(a, b)| (a - b).abs() <= 0.0);
         if i > 0 && is_before(&nm[i - 1]) {

@@ -1,7 +1,7 @@
 //! Validation of paths.
 
 use super::path::load_factors;
-use super::rules::{all_finite, finite, positive, show};
+use super::rules::{positive, show};
 use super::support::is_along;
 use super::{
     ClampedEnds, End, FreeTranslation, Hold, Scene, SceneProblem, Setting, Stage, periodic,
@@ -10,7 +10,8 @@ use super::{
 pub(super) fn check(
     scene: &Scene,
     held: &ClampedEnds,
-    (i, stage): (usize, &Stage),
+    i: usize,
+    stage: &Stage,
 ) -> Result<(), SceneProblem> {
     for (k, setting) in stage.set.iter().enumerate() {
         let key = |name: &str| format!("path[{i}].set[{k}].{name}");
@@ -20,30 +21,18 @@ pub(super) fn check(
             (index < count).then_some(()).ok_or_else(missing)
         };
         match *setting {
-            Setting::LoadFactor { load, factor } => {
-                exists("load", load, scene.loads.len())?;
-                finite(&key("factor"), factor)?;
-            }
-            Setting::Anchor { linker, shift_nm } => {
+            Setting::LoadFactor { load, .. } => exists("load", load, scene.loads.len())?,
+            Setting::Anchor { linker, .. } => {
                 exists("linker", linker, scene.linkers.len())?;
                 check_anchor(scene, &key("linker"), linker)?;
-                all_finite(&key("shift_nm"), shift_nm)?;
             }
             Setting::Shear { factor } => periodic::check_factor(scene, &key("factor"), factor)?,
             Setting::Shift {
                 filament,
                 end,
                 shift_nm,
-            } => {
-                all_finite(&key("shift_nm"), shift_nm)?;
-                check_shift((scene, held), &key(""), (filament, end), shift_nm)?;
-            }
-            Setting::Turn {
-                filament,
-                end,
-                turn_deg,
-            } => {
-                all_finite(&key("turn_deg"), turn_deg)?;
+            } => check_shift((scene, held), &key(""), (filament, end), shift_nm)?,
+            Setting::Turn { filament, end, .. } => {
                 check_turns((scene, held), &key(""), (filament, end))?;
             }
         }
@@ -165,11 +154,9 @@ pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Sce
     }
     let whole: f64 = scene.path.iter().filter_map(|s| s.duration_ns).sum();
     if whole > duration_ns {
-        return Err(SceneProblem::new(
-            "task.duration_ns",
-            show(duration_ns),
-            format!("must be at least the duration of the path, {whole:?}"),
-        ));
+        let rule = format!("must be at least the duration of the path, {whole:?}");
+        let key = "task.duration_ns";
+        return Err(SceneProblem::new(key, show(duration_ns), rule));
     }
     Ok(())
 }

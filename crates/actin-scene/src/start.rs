@@ -1,11 +1,10 @@
 //! Initial state of a scene.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Initial state of a run. Linkers, loads and stages begin as in the scene.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Start {
     /// Last state of a finished run with the same sections, for example to continue an equilibrium as a motion.
     /// `Dynamics` after `Dynamics` keeps the velocities. Clamped ends stay where that run left them, and stages

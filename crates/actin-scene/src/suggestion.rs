@@ -13,13 +13,6 @@ pub(super) fn unknown_key(found: &str, known: &[&'static str], structure: &str) 
     format!("unknown key `{found}` in {structure}: {hint}")
 }
 
-pub(super) fn unknown_choice(found: &str, known: &[&'static str], kind: &str) -> String {
-    format!(
-        "unknown {kind} {found}: expected one of {}",
-        known.join(", ")
-    )
-}
-
 /// Known key or choice closest to an unknown one.
 pub(super) fn suggestion(found: &str, known: &[&'static str]) -> Option<String> {
     if found.len() > LONGEST_KEY {

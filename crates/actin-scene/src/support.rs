@@ -34,12 +34,10 @@ pub(super) fn check_swings(scene: &Scene, held: &ClampedEnds) -> Result<(), Scen
             if slides == Some(FreeTranslation::Freely)
                 || (slides == Some(FreeTranslation::AlongAxis) && tilts)
             {
-                return Err(SceneProblem::new(
-                    format!("path[{i}].set[{k}].turn_deg"),
-                    format!("{turn_deg:?}"),
-                    "in Dynamics and Brownian an end that slides AlongAxis can turn about its axis only, and an end \
-                     that slides Freely cannot turn: write Equilibrium, or change slides",
-                ));
+                let rule = "in Dynamics and Brownian an end that slides AlongAxis can turn about its axis only, and \
+                            an end that slides Freely cannot turn: write Equilibrium, or change slides";
+                let key = format!("path[{i}].set[{k}].turn_deg");
+                return Err(SceneProblem::new(key, format!("{turn_deg:?}"), rule));
             }
         }
     }

@@ -3,9 +3,9 @@
 use super::deserialize::{DeserializeError, deserialize};
 use super::parse::{Parsed, parse, word};
 use super::position::{line_and_column, place, without_mark};
+use super::scene_file::SceneFile;
 use super::tree::{Kind, SceneValue, Source, print};
 use super::{ParseReport, Scene, SceneError, SceneProblem, brackets, trace, validate};
-use super::{scene_file::SceneFile, validate::validate};
 use serde::de::DeserializeOwned;
 use std::borrow::Cow;
 use std::fmt;
@@ -205,26 +205,33 @@ impl SceneText {
     pub fn read(&self) -> Result<(Scene, Option<SceneError>), SceneError> {
         let written = self.readings::<SceneFile>().into_result()?;
         let scene = Scene::try_from(written).map_err(|problem| self.locate(&problem))?;
-        let problem = validate(&scene).err();
-        Ok((scene, problem.map(|problem| self.locate(&problem))))
+        let problem = self.problems(&scene).into_iter().next();
+        Ok((scene, problem))
     }
 
     /// Returns independent mistakes in the order of the text; none for a valid scene. At most 20 errors of
     /// reading and 20 violated rules are returned, and fewer for texts longer than 100 kB.
     ///
-    /// The first is the error of [`scene`](Self::scene) or precedes it in the text.
+    /// The first is the error of [`scene`](Self::scene).
     pub fn mistakes(&self) -> Vec<SceneError> {
         let ParseReport { value, mistakes } = self.readings::<SceneFile>();
         let problems = match value.map(Scene::try_from) {
-            Some(Ok(scene)) => validate::problems(&scene, self.most()),
-            Some(Err(problem)) => vec![problem],
+            Some(Ok(scene)) => self.problems(&scene),
+            Some(Err(problem)) => vec![self.locate(&problem)],
             None => Vec::new(),
         };
-        let problems = problems.iter().map(|problem| self.locate(problem));
         let mut all: Vec<_> = mistakes.into_iter().chain(problems).collect();
         all.sort_by_key(|error| (error.line, error.column));
         all.dedup();
         all
+    }
+
+    /// Returns violated rules in the order of the text.
+    fn problems(&self, scene: &Scene) -> Vec<SceneError> {
+        let found = validate::problems(scene, self.most()).found;
+        let mut located: Vec<_> = found.iter().map(|problem| self.locate(problem)).collect();
+        located.sort_by_key(|error| (error.line, error.column));
+        located
     }
 
     fn most(&self) -> usize {
@@ -283,17 +290,17 @@ impl SceneText {
         mistakes: &mut Vec<(usize, SceneError)>,
     ) {
         let node = tree.at(&refusal.indices());
+        let is_refused =
+            |value: &SceneValue| value.kind == Kind::Removed && value.key() == refusal.missing();
+        if refusal.missing().is_some() && node.children().iter().any(is_refused) {
+            return;
+        }
         let place = &node.place;
         if place.is_mistaken {
             // The text after the value belongs to the same mistake.
             mistakes.retain(|(at, _)| !(place.start..place.until).contains(at));
         }
-        let is_refused =
-            |value: &SceneValue| value.kind == Kind::Removed && value.key() == refusal.missing();
-        let is_consequence = refusal.missing().is_some() && node.children().iter().any(is_refused);
-        if !is_consequence {
-            mistakes.push((refusal.at.unwrap_or_default(), self.refused(tree, refusal)));
-        }
+        mistakes.push((refusal.at.unwrap_or_default(), self.refused(tree, refusal)));
     }
 
     /// Returns a mistake that prevents reading the rest of the text.
@@ -320,14 +327,10 @@ impl SceneText {
         } else {
             tree.path(&indices)
         };
-        let error = self.error(refusal.at.unwrap_or_default(), &path, &refusal.to_string());
-        let suggestion = refusal.suggestion();
-        let set = self.blamed(tree, &indices);
-        SceneError {
-            set,
-            suggestion,
-            ..error
-        }
+        let mut error = self.error(refusal.at.unwrap_or_default(), &path, &refusal.to_string());
+        error.suggestion = refusal.suggestion();
+        error.set = self.blamed(tree, &indices);
+        error
     }
 
     fn blamed(&self, tree: &SceneValue, indices: &[usize]) -> Option<String> {

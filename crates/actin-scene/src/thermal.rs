@@ -1,6 +1,7 @@
 //! Thermal noise and its validation.
 
-use super::{Dynamics, Scene, SceneProblem, Task, rules};
+use super::{Dynamics, Scene, SceneProblem, Task};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Boltzmann constant (pN nm/K), exact in the SI.
@@ -11,9 +12,7 @@ pub const BOLTZMANN_PN_NM_PER_K: f64 = 0.013_806_49;
 
 /// Thermal noise, in balance with drag at a temperature. It depends only on the seed, the number of the step
 /// and the index of the body.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Thermal {
     /// Temperature; positive.
     pub temperature_k: f64,
@@ -42,13 +41,18 @@ impl Scene {
             Task::Equilibrium(_) => None,
         }
     }
+
+    /// Thermal energy of the task (pN nm); zero without a heat bath.
+    pub fn thermal_energy_pn_nm(&self) -> f64 {
+        let thermal = self.task.motion().and_then(|motion| motion.thermal);
+        thermal.map_or(0.0, |thermal| thermal.energy_pn_nm())
+    }
 }
 
 pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
-    let Some(thermal) = &dynamics.thermal else {
+    if dynamics.thermal.is_none() {
         return Ok(());
-    };
-    rules::positive("task.thermal.temperature_k", thermal.temperature_k)?;
+    }
     let drag = dynamics.drag.rates();
     let rates = [
         ("translational_per_ns", drag.translational_per_ns),
@@ -56,27 +60,10 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     ];
     for (name, rate) in rates {
         if rate == 0.0 && dynamics.drag.fluid().is_none() {
-            return Err(SceneProblem::new(
-                format!("task.drag.{name}"),
-                format!("{rate:?}"),
-                "must be greater than 0, because thermal noise requires drag",
-            ));
+            let rule = "must be greater than 0, because thermal noise requires drag";
+            let key = format!("task.drag.{name}");
+            return Err(SceneProblem::new(key, format!("{rate:?}"), rule));
         }
     }
-    if dynamics.stop.is_some() {
-        return Err(SceneProblem::new(
-            "task.stop",
-            "",
-            "a filament in thermal motion never comes to rest: omit stop or thermal",
-        ));
-    }
     Ok(())
-}
-
-impl super::Scene {
-    /// Thermal energy of the task (pN nm); zero without a heat bath.
-    pub fn thermal_energy_pn_nm(&self) -> f64 {
-        let thermal = self.task.motion().and_then(|motion| motion.thermal);
-        thermal.map_or(0.0, |thermal| thermal.energy_pn_nm())
-    }
 }

@@ -5,6 +5,7 @@ use super::{
     Bead, Brownian, DragModel, Imperfection, Linker, Load, Observable, Output, PeriodicBox,
     Quantity, Repulsion, Sections, Shape, Start, Thermal, scene_file::SceneFile,
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A scene: filaments, clamps, loads, linkers and a task.
@@ -73,9 +74,7 @@ impl Scene {
 ///
 /// Shifts and turns start at zero. A load that any stage sets starts at factor 0. A path that sets loads must
 /// set all loads without a `factor`. Along other paths loads act in full from the start.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Stage {
     /// Target values at the end of the stage. The last setting of a control counts.
     pub set: Vec<Setting>,
@@ -89,8 +88,7 @@ pub struct Stage {
 }
 
 /// Time course of the controls of a stage.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Pace")]
 pub enum TimeCourse {
     /// Smooth ramp, with zero velocity and acceleration at both ends.
@@ -101,9 +99,7 @@ pub enum TimeCourse {
 }
 
 /// Value of a control at the end of a stage.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Setting {
     /// Factor of a load.
     LoadFactor {
@@ -151,9 +147,7 @@ pub enum Setting {
 }
 
 /// A filament: sections, parameters of their models, and position.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Filament {
     /// Sections in order of arc length, at least one. The first starts at 0, and each other at the end of the
     /// previous one. Adjacent sections differ in kind or in `altered`. Write `Adaptive(..)` for an automatic
@@ -192,8 +186,7 @@ pub(super) fn along_z() -> [f64; 3] {
 }
 
 /// End of a filament.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum End {
     /// End at arc length 0.
     Start,
@@ -202,9 +195,7 @@ pub enum End {
 }
 
 /// Clamped end.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Clamp {
     /// Index of the filament.
     #[serde(default)]
@@ -238,9 +229,7 @@ impl Clamp {
 /// Rotational spring between the cross-section at a pinned end and a frame that the path may turn. Its energy
 /// is `(k_b (theta_1^2 + theta_2^2) + k_t theta_3^2) / 2`. Here `theta` is the rotation vector between them,
 /// with the third component along the filament. A run fails if the angle reaches half a turn.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Hinge {
     /// Stiffness `k_b` of rotation about transverse axes; positive.
     pub bend_pn_nm_per_rad: f64,
@@ -250,8 +239,7 @@ pub struct Hinge {
 
 /// Directions in which a clamped end can move as a rigid body. Its orientation is fixed unless it is pinned. A
 /// force on a sliding end is a constant end load.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Slides")]
 pub enum FreeTranslation {
     /// Fixed position.
@@ -264,8 +252,7 @@ pub enum FreeTranslation {
 }
 
 /// Constrained degrees of freedom of a clamped end.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Hold {
     /// Rod: the last node, and a wall frame joined to the last segment by half a segment of bending. Monomers:
     /// the last two.
@@ -282,8 +269,7 @@ pub enum Hold {
 }
 
 /// Computation to run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Task {
     /// Motion with inertia.
     Dynamics(Dynamics),
@@ -294,9 +280,8 @@ pub enum Task {
 }
 
 /// Equilibrium, or equilibria along the path.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
 pub struct Equilibrium {
     /// Tolerance of the residual force on a free body; positive, below half of every load.
     pub force_pn: f64,
@@ -344,9 +329,7 @@ impl Default for Equilibrium {
 }
 
 /// Motion with inertia, with optional drag.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Dynamics {
     /// Simulated time; positive, at least the duration of the path. The run ends earlier if `stop` is met.
     pub duration_ns: f64,
@@ -416,8 +399,7 @@ impl Dynamics {
 }
 
 /// Integrator.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Integrator {
     /// Position Verlet: order 2, one force evaluation per step.
     PositionVerlet,
@@ -433,9 +415,7 @@ pub enum Integrator {
 }
 
 /// Tolerances of rest. The motion stops when all three are met.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "StopRule")]
 pub struct StopTolerances {
     /// Largest force on a free body; positive, below half of every load.

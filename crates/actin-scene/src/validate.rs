@@ -1,15 +1,14 @@
 //! Validation of scenes.
 
 use super::adaptive_resolution::check_following;
-use super::rules::{
-    all_finite, check_potential, direction, each_positive, finite, non_negative, positive, show,
-};
+use super::problem::Problems;
+use super::rules::{check_index, check_potential, show};
 use super::support::{check_support, check_swings};
 use super::{
     Adaptive, Anchors, Clamp, ClampedEnds, Dynamics, End, Equilibrium, Filament, FreeTranslation,
-    Hold, Monomers, Quantity, Resultant, Scene, SceneProblem, Sections, StopTolerances, Task, bead,
-    brownian, drag, imperfection, kinetics, linker, load_rules, magnitude, observable, periodic,
-    repulsion, saddles, section_rules, shape, stage, thermal,
+    Hold, Monomers, Quantity, Resultant, Scene, SceneProblem, Task, bead, brownian, drag,
+    imperfection, linker, load_rules, numbers, observable, periodic, rest, section_rules, shape,
+    stage, thermal,
 };
 use actin_ellipsoid::{MAX_POINTS, MIN_POINTS};
 
@@ -25,91 +24,89 @@ const MOST_STATES: usize = 10_000;
 /// # Errors
 /// The first violated rule.
 pub(super) fn validate(scene: &Scene) -> Result<(), SceneProblem> {
-    problems(scene, 1).into_iter().next().map_or(Ok(()), Err)
+    problems(scene, 1).into_result()
 }
 
-/// Returns the first `most` violated rules, one for each key. Rules of the whole scene are checked only if all
-/// numbers are valid.
-pub(super) fn problems(scene: &Scene, most: usize) -> Vec<SceneProblem> {
-    let mut found = Vec::new();
+/// Finds the first `most` violated rules, one for each key. Rules of the whole scene are checked only if all
+/// other rules are met.
+pub(super) fn problems(scene: &Scene, most: usize) -> Problems {
     let held = ClampedEnds::new(scene);
-    let mut note = |checked: Result<(), SceneProblem>| {
-        let problem = checked.err().filter(|_| found.len() < most);
-        let is_new = |p: &SceneProblem| found.iter().all(|f: &SceneProblem| f.key != p.key);
-        let new = problem.filter(is_new);
-        found.extend(new);
-    };
-    note(magnitude::check(scene));
-    filaments(scene, &mut note);
+    let mut problems = Problems::new(most);
+    numbers::check(&scene.to_value(), &mut problems);
+    for (i, one) in scene.filaments().enumerate() {
+        check_filament(one, &scene.filament_key(i), &mut problems);
+    }
     if scene.filaments().any(|one| one.sections.is_empty()) {
-        return found;
+        return problems;
     }
-    for (i, clamp) in scene.clamps.iter().enumerate() {
-        note(check_clamp(scene, &held, (i, clamp)));
+    each(&mut problems, "clamps", &scene.clamps, |i, clamp| {
+        check_clamp(scene, &held, i, clamp)
+    });
+    each(&mut problems, "loads", &scene.loads, |i, load| {
+        load.check(i, scene, &held)
+    });
+    each(&mut problems, "linkers", &scene.linkers, |i, linker| {
+        linker::check(scene, i, linker)
+    });
+    each(&mut problems, "beads", &scene.beads, |i, bead| {
+        bead::check(scene, i, bead)
+    });
+    if let Some(repulsion) = &scene.repulsion {
+        repulsion.check(&mut problems);
     }
-    for (i, load) in scene.loads.iter().enumerate() {
-        note(load.check(i, (scene, &held)));
-    }
-    for (i, linker) in scene.linkers.iter().enumerate() {
-        note(linker::check(scene, i, linker));
-    }
-    for (i, bead) in scene.beads.iter().enumerate() {
-        note(bead::check(scene, i, bead));
-    }
-    repulsion::check(scene, &mut note);
-    periodic::check(scene, &mut note);
-    for (i, stage) in scene.path.iter().enumerate() {
-        note(stage::check(scene, &held, (i, stage)));
-    }
-    observable::check_all(scene, &held, &mut note);
-    note(match &scene.task {
+    periodic::check(scene, &mut problems);
+    each(&mut problems, "path", &scene.path, |i, stage| {
+        stage::check(scene, &held, i, stage)
+    });
+    observable::check_all(scene, &held, &mut problems);
+    problems.check("task", || match &scene.task {
         Task::Dynamics(dynamics) => check_dynamics(dynamics),
         Task::Brownian(brownian) => brownian::check(brownian),
         Task::Equilibrium(equilibrium) => check_equilibrium(equilibrium),
     });
-    if found.is_empty() {
-        found.extend(check_whole(scene, &held).err());
+    if problems.found.is_empty() {
+        problems.note(check_whole(scene, &held));
     }
-    found
+    problems
 }
 
-fn filaments(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
-    for (i, one) in scene.filaments().enumerate() {
-        filament(one, &scene.filament_key(i), note);
+/// Checks all elements of the list at `key`.
+fn each<T>(
+    problems: &mut Problems,
+    key: &str,
+    list: &[T],
+    check: impl Fn(usize, &T) -> Result<(), SceneProblem>,
+) {
+    for (i, one) in list.iter().enumerate() {
+        problems.check(&format!("{key}[{i}]"), || check(i, one));
     }
 }
 
-fn filament(one: &Filament, key: &str, note: &mut impl FnMut(Result<(), SceneProblem>)) {
-    let named = |problem: SceneProblem| problem.with_filament(key);
-    section_rules::check(one, &mut |checked| note(checked.map_err(named)));
-    for check in [check_model, check_place, imperfection::check, shape::check] {
-        note(check(one).map_err(named));
-    }
-}
+type FilamentRule = fn(&Filament) -> Result<(), SceneProblem>;
 
 /// Checks a filament whose keys begin with `key`.
-///
-/// # Errors
-/// The first violated rule.
-pub(super) fn check_filament(one: &Filament, key: &str) -> Result<(), SceneProblem> {
-    let mut first = Ok(());
-    filament(one, key, &mut |checked| {
-        if first.is_ok() {
-            first = checked;
-        }
-    });
-    first
+pub(super) fn check_filament(one: &Filament, key: &str, problems: &mut Problems) {
+    section_rules::check(one, &format!("{key}.sections"), problems);
+    let checks: [(&str, FilamentRule); 4] = [
+        ("junction", check_junction),
+        ("monomers", check_monomers),
+        ("imperfection", imperfection::check),
+        ("shape", shape::check),
+    ];
+    for (part, check) in checks {
+        problems.check(&format!("{key}.{part}"), || {
+            check(one).map_err(|problem| problem.with_filament(key))
+        });
+    }
 }
 
 fn check_start(scene: &Scene) -> Result<(), SceneProblem> {
     if scene.start.is_none() {
         return Ok(());
     }
-    let is_automatic =
-        |sections: &Sections| sections.adaptive().is_some() || sections.following().is_some();
     let rule = if scene.filaments().any(|one| one.imperfection.is_some()) {
         "replaces the imperfection of a filament: remove one of them"
-    } else if scene.filaments().any(|one| is_automatic(&one.sections)) {
+    } else if scene.filaments().any(|one| one.sections.is_automatic()) {
         "needs the sections of that run: copy them from its scene.ron"
     } else {
         return Ok(());
@@ -128,9 +125,7 @@ fn check_whole(scene: &Scene, held: &ClampedEnds) -> Result<(), SceneProblem> {
         Task::Dynamics(dynamics) => {
             stage::check_durations(scene, dynamics.duration_ns)?;
             check_swings(scene, held)?;
-            saddles::check(scene, dynamics)?;
-            load_rules::check_rest(scene, dynamics)?;
-            kinetics::check_rest(scene, dynamics)?;
+            rest::check(scene, dynamics)?;
             if let Some(fluid) = dynamics.drag.fluid() {
                 fluid.check_filaments(scene)?;
             }
@@ -161,16 +156,12 @@ fn check_whole(scene: &Scene, held: &ClampedEnds) -> Result<(), SceneProblem> {
 
 fn check_adaptive(scene: &Scene) -> Result<(), SceneProblem> {
     for (i, filament) in scene.filaments().enumerate() {
-        let targets = filament
-            .sections
-            .adaptive()
-            .into_iter()
-            .flat_map(Adaptive::targets);
-        let mut checked =
-            targets.map(|want| check_wanted(scene, "filament.sections.want", want.quantity()));
-        checked
-            .try_for_each(|one| one)
-            .map_err(|problem| problem.with_filament(&scene.filament_key(i)))?;
+        let key = format!("{}.sections.want", scene.filament_key(i));
+        let adaptive = filament.sections.adaptive().into_iter();
+        for target in adaptive.flat_map(Adaptive::targets) {
+            check_wanted(scene, &key, target.quantity())
+                .map_err(|problem| problem.with_filament(&scene.filament_key(i)))?;
+        }
     }
     Ok(())
 }
@@ -178,7 +169,8 @@ fn check_adaptive(scene: &Scene) -> Result<(), SceneProblem> {
 /// Checks that the scene has a quantity, which `key` requests.
 fn check_wanted(scene: &Scene, key: &str, quantity: Quantity) -> Result<(), SceneProblem> {
     if let Quantity::LinkerForce { linker } = quantity {
-        observable::check_linker(scene, &format!("{key}.linker"), linker)?;
+        let count = scene.linkers.len();
+        check_index(&format!("{key}.linker"), "linker", linker, count)?;
     }
     match missing(scene, quantity) {
         Some((key, rule)) => Err(SceneProblem::new(key, "", rule)),
@@ -215,69 +207,28 @@ fn missing(scene: &Scene, quantity: Quantity) -> Option<(&'static str, String)> 
     Some(("clamps", rule.to_owned()))
 }
 
-fn check_place(filament: &Filament) -> Result<(), SceneProblem> {
-    all_finite("filament.at_nm", filament.at_nm)?;
-    direction("filament.direction", filament.direction)?;
-    finite("filament.roll_deg", filament.roll_deg)
-}
-
-fn check_model(filament: &Filament) -> Result<(), SceneProblem> {
+fn check_junction(filament: &Filament) -> Result<(), SceneProblem> {
     let attached = filament.junction.attached_monomers;
-    if !(1..=2).contains(&attached) {
-        return Err(SceneProblem::new(
-            "filament.junction.attached_monomers",
-            attached,
-            "a junction attaches 1 or 2 monomers",
-        ));
+    if (1..=2).contains(&attached) {
+        return Ok(());
     }
-    check_monomers(&filament.monomers)?;
-    if let super::Material::Rigidities {
-        shear_pn,
-        bend_pn_nm2,
-    } = filament.rod.material
-    {
-        each_positive("filament.rod.material.shear_pn", shear_pn)?;
-        each_positive("filament.rod.material.bend_pn_nm2", bend_pn_nm2)?;
-    }
-    Ok(())
+    let rule = "a junction attaches 1 or 2 monomers";
+    let key = "filament.junction.attached_monomers";
+    Err(SceneProblem::new(key, attached, rule))
 }
 
-fn check_monomers(m: &Monomers) -> Result<(), SceneProblem> {
-    for (key, value) in [
-        ("rise_nm", m.rise_nm),
-        ("radius_nm", m.radius_nm),
-        ("mass_ag", m.mass_ag),
-        ("lateral_rigidity_pn_per_nm", m.lateral_rigidity_pn_per_nm),
-        (
-            "longitudinal_rigidity_pn_per_nm",
-            m.longitudinal_rigidity_pn_per_nm,
-        ),
-        ("lateral_max_bond_nm", m.lateral_max_bond_nm),
-        ("longitudinal_max_bond_nm", m.longitudinal_max_bond_nm),
+fn check_monomers(filament: &Filament) -> Result<(), SceneProblem> {
+    let m = &filament.monomers;
+    for (name, bonds) in [
+        ("lateral_bonds", m.lateral_bonds),
+        ("longitudinal_bonds", m.longitudinal_bonds),
     ] {
-        positive(&format!("filament.monomers.{key}"), value)?;
+        check_bonds(&format!("filament.monomers.{name}"), m.anchors, bonds)?;
     }
-    for (key, value) in [("turn_deg", m.turn_deg), ("azimuth_deg", m.azimuth_deg)] {
-        finite(&format!("filament.monomers.{key}"), value)?;
-    }
-    each_positive("filament.monomers.semi_axes_nm", m.semi_axes_nm)?;
-    check_bonds(
-        "filament.monomers.lateral_bonds",
-        m.anchors,
-        m.lateral_bonds,
-    )?;
-    check_bonds(
-        "filament.monomers.longitudinal_bonds",
-        m.anchors,
-        m.longitudinal_bonds,
-    )?;
     check_shortest(m)?;
     if m.anchors == Anchors::Cubature && m.seed != 0 {
-        return Err(SceneProblem::new(
-            "filament.monomers.seed",
-            m.seed,
-            "quadrature bonds are not sampled: omit the seed, or write anchors: Independent",
-        ));
+        let rule = "quadrature bonds are not sampled: omit the seed, or write anchors: Independent";
+        return Err(SceneProblem::new("filament.monomers.seed", m.seed, rule));
     }
     Ok(())
 }
@@ -308,7 +259,6 @@ pub(super) fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(
 fn check_shortest(monomers: &Monomers) -> Result<(), SceneProblem> {
     let key = "filament.monomers.min_bond_nm";
     let shortest = monomers.min_bond_nm;
-    non_negative(key, shortest)?;
     let is_default = shortest.total_cmp(&Monomers::default().min_bond_nm).is_eq();
     for (longest_key, longest) in [
         ("lateral_max_bond_nm", monomers.lateral_max_bond_nm),
@@ -333,23 +283,20 @@ fn check_shortest(monomers: &Monomers) -> Result<(), SceneProblem> {
 fn check_clamp(
     scene: &Scene,
     held: &ClampedEnds,
-    (i, clamp): (usize, &Clamp),
+    i: usize,
+    clamp: &Clamp,
 ) -> Result<(), SceneProblem> {
     let key = format!("clamps[{i}]");
     let filament = scene.named_filament(&format!("{key}.filament"), clamp.filament)?;
     if held.clamp_at(clamp.filament, clamp.end) != Some(i) {
-        return Err(SceneProblem::new(
-            format!("{key}.end"),
-            show(clamp.end),
-            "this end is clamped already",
-        ));
+        let rule = "this end is clamped already";
+        let key = format!("{key}.end");
+        return Err(SceneProblem::new(key, show(clamp.end), rule));
     }
     if !filament.is_rod_at(clamp.end) && clamp.hold != Hold::Wall {
-        return Err(SceneProblem::new(
-            format!("{key}.hold"),
-            show(clamp.hold),
-            "this end consists of monomers: write Wall, which holds the last two monomers",
-        ));
+        let rule = "this end consists of monomers: write Wall, which holds the last two monomers";
+        let key = format!("{key}.hold");
+        return Err(SceneProblem::new(key, show(clamp.hold), rule));
     }
     check_pin(&key, clamp)
 }
@@ -361,44 +308,27 @@ fn check_pin(key: &str, clamp: &Clamp) -> Result<(), SceneProblem> {
         let rule = "a pinned end that slides freely is a free end: omit the clamp";
         return Err(SceneProblem::new(format!("{key}.slides"), "Freely", rule));
     }
-    let Some(hinge) = clamp.hinge else {
-        return Ok(());
-    };
-    let key = format!("{key}.hinge");
-    if !is_pinned {
+    if clamp.hinge.is_some() && !is_pinned {
         let rule = "a hinge requires a pinned end: write hold: Pin, or omit the hinge";
-        return Err(SceneProblem::new(key, "", rule));
+        return Err(SceneProblem::new(format!("{key}.hinge"), "", rule));
     }
-    let (bend, twist) = (hinge.bend_pn_nm_per_rad, hinge.twist_pn_nm_per_rad);
-    positive(&format!("{key}.bend_pn_nm_per_rad"), bend)?;
-    positive(&format!("{key}.twist_pn_nm_per_rad"), twist)
+    Ok(())
 }
 
 fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {
-    positive("task.force_pn", equilibrium.force_pn)?;
-    positive("task.torque_pn_nm", equilibrium.torque_pn_nm)?;
-    positive("task.largest_step", equilibrium.largest_step)?;
-    positive("task.smallest_step", equilibrium.smallest_step)?;
-    if equilibrium.largest_step > 1.0 || equilibrium.smallest_step > equilibrium.largest_step {
-        return Err(SceneProblem::new(
-            "task.largest_step",
-            show(equilibrium.largest_step),
-            "must be at most 1 and at least smallest_step",
-        ));
+    let largest = equilibrium.largest_step;
+    if largest > 1.0 || equilibrium.smallest_step > largest {
+        let rule = "must be at most 1 and at least smallest_step";
+        return Err(SceneProblem::new("task.largest_step", show(largest), rule));
     }
     if equilibrium.iterations == 0 {
-        return Err(SceneProblem::new(
-            "task.iterations",
-            0,
-            "must be at least 1",
-        ));
+        let rule = "must be at least 1";
+        return Err(SceneProblem::new("task.iterations", 0, rule));
     }
-    if equilibrium.states > MOST_STATES {
-        return Err(SceneProblem::new(
-            "task.states",
-            equilibrium.states,
-            format!("must be at most {MOST_STATES}"),
-        ));
+    let states = equilibrium.states;
+    if states > MOST_STATES {
+        let rule = format!("must be at most {MOST_STATES}");
+        return Err(SceneProblem::new("task.states", states, rule));
     }
     Ok(())
 }
@@ -424,43 +354,23 @@ fn check_tolerance(
                     format!("must be below the load of loads[{i}] on 1 nm ({least:e} {unit})")
                 }
             };
-            return Err(SceneProblem::new(
-                format!("{key}.{name}"),
-                show(tolerance),
-                format!("{rule}: otherwise the filament counts as at rest before it has moved"),
-            ));
+            let rule =
+                format!("{rule}: otherwise the filament counts as at rest before it has moved");
+            let key = format!("{key}.{name}");
+            return Err(SceneProblem::new(key, show(tolerance), rule));
         }
     }
     Ok(())
 }
 
 fn check_dynamics(dynamics: &Dynamics) -> Result<(), SceneProblem> {
-    let key = |name: &str| format!("task.{name}");
-    positive(&key("duration_ns"), dynamics.duration_ns)?;
-    if let Some(step) = dynamics.time_step_ns {
-        positive(&key("time_step_ns"), step)?;
-    }
-    if let Some(every) = dynamics.record_every_ns {
-        positive(&key("record_every_ns"), every)?;
-    }
     let safety = dynamics.step_safety;
-    positive(&key("step_safety"), safety)?;
     if safety >= 1.0 {
-        return Err(SceneProblem::new(
-            key("step_safety"),
-            show(safety),
-            "must be below 1, the stability limit",
-        ));
+        let rule = "must be below 1, the stability limit";
+        return Err(SceneProblem::new("task.step_safety", show(safety), rule));
     }
     drag::check(dynamics)?;
-    thermal::check(dynamics)?;
-    dynamics.stop.as_ref().map_or(Ok(()), check_stop)
-}
-
-fn check_stop(stop: &StopTolerances) -> Result<(), SceneProblem> {
-    positive("task.stop.force_pn", stop.force_pn)?;
-    positive("task.stop.torque_pn_nm", stop.torque_pn_nm)?;
-    positive("task.stop.kinetic_pn_nm", stop.kinetic_pn_nm)
+    thermal::check(dynamics)
 }
 
 impl Scene {

@@ -47,7 +47,6 @@ pub use actin_integrate as integrate;
 pub use actin_mechanics as mechanics;
 use actin_scene as scene;
 pub use actin_scene::fitted_laws;
-#[cfg(feature = "schema")]
 pub use actin_scene::schema;
 pub use actin_scene::{
     Acceleration, Adaptive, AdaptiveResolution, Anchors, BOLTZMANN_PN_NM_PER_K, Bead, BendLaw,

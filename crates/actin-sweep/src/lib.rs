@@ -38,7 +38,6 @@ pub use settings::Settings;
 pub use sweep::{Axis, Plan, Ron, Samples, Scale, Span, Sweep, Value};
 
 /// Returns the JSON schema of sweep files.
-#[cfg(feature = "schema")]
 pub fn schema() -> serde_json::Value {
     schemars::schema_for!(Sweep).to_value()
 }

@@ -1,14 +1,14 @@
 //! Input data of a sweep. `rules.rs` validates them.
 
 use actin_sim::{RandomPart, SceneError, read_ron, to_ron};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A sweep: a scene, its varied keys, the number of samples, and the tabulated results.
 ///
 /// The points are all combinations of the values of all axes; the last axis changes fastest. Each point is run once,
 /// or once for each sample.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sweep {
     /// Title of the sweep.
@@ -32,8 +32,7 @@ pub struct Sweep {
 }
 
 /// A value for a key of the scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "Set")]
 pub struct Value {
     /// Path of the key, with indices of lists and vectors in brackets: `loads[0].force_pn[2]`. The index `*` selects
@@ -44,8 +43,7 @@ pub struct Value {
 }
 
 /// Varied keys and their values.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Axis {
     /// Values of one key.
@@ -91,8 +89,7 @@ pub enum Axis {
 }
 
 /// Range of a random key.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Span {
     /// Path of the key.
@@ -110,8 +107,7 @@ pub struct Span {
 }
 
 /// Spacing of numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Scale {
     /// Equal differences.
     #[default]
@@ -121,8 +117,7 @@ pub enum Scale {
 }
 
 /// Distribution of random points.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Plan {
     /// Latin hypercube: each span is divided into as many equal parts as there are points, with one point in each
     /// part.
@@ -133,8 +128,7 @@ pub enum Plan {
 }
 
 /// Repeated runs of each point with different seeds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Samples {
     /// Number of runs of each point; at least 1.
@@ -160,7 +154,6 @@ fn all() -> Vec<RandomPart> {
 #[serde(rename = "$written")]
 pub struct Ron(pub String);
 
-#[cfg(feature = "schema")]
 impl schemars::JsonSchema for Ron {
     fn schema_name() -> std::borrow::Cow<'static, str> {
         "Ron".into()

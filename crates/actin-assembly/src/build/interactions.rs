@@ -112,7 +112,7 @@ impl Strand<'_> {
         };
         let parts = JunctionParts {
             side,
-            weight: models::junction_weight(self.filament.junction.weight),
+            weight: self.filament.junction.weight,
             monomers: &attached,
             frames: self.junction_frames[i].clone(),
             rod: layout,

@@ -267,7 +267,7 @@ impl<'a> Strand<'a> {
             orientation: self.placement.rotation,
             segment_lengths: lengths.flatten().collect(),
             cross_section: self.cross_section,
-            rotary_inertia: models::rotary_inertia(self.filament.rod.rotary_inertia),
+            rotary_inertia: self.filament.rod.rotary_inertia,
             walls: Walls {
                 start: wall(first, End::Start),
                 end: wall(past - 1, End::End),

@@ -141,3 +141,25 @@ fn slips_between_values_hide_nothing() {
         );
     }
 }
+
+/// A key that is missing because its value was refused does not hide the mistake before it.
+#[test]
+fn consequences_hide_no_mistake() {
+    let text = SCENE.replacen("Clamp(end: Start)", "\"Clamp\"(end: Begin)", 1);
+    let found = SceneText::new(&text).mistakes();
+    assert_eq!(found.len(), 2, "{found:?}");
+    assert!(
+        found[0].message.contains("a name is expected"),
+        "{}",
+        found[0]
+    );
+    assert!(
+        found[1]
+            .message
+            .starts_with("clamps[0].end: unknown End Begin")
+            || found[1].message.starts_with("unknown End Begin"),
+        "{}",
+        found[1]
+    );
+    assert_eq!(Scene::from_ron(&text), Err(found[0].clone()));
+}
