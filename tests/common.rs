@@ -53,3 +53,32 @@ pub(crate) fn apart(a: &State, b: &State) -> f64 {
     let pairs = a.points.position.iter().zip(b.points.position.iter());
     pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
 }
+
+/// Length (nm) and bending rigidity (pN nm^2) of [`rod_scene`].
+pub(crate) const LENGTH: f64 = 160.0;
+pub(crate) const BEND: f64 = 3.9e4;
+
+/// Scene of a rod with equal shear and stretch rigidities (pN) and a twisting rigidity (pN nm^2).
+///
+/// The moment `n x r'` with `r' = d3 + n/S` is then equal to the moment for an unstrained segment,
+/// and frames are exactly as in an inextensible rod.
+pub(crate) fn rod_scene(
+    segments: usize,
+    (shear, twist): (f64, f64),
+    clamps: &str,
+    rest: &str,
+) -> String {
+    format!(
+        "Scene(
+            filament: Filament(
+                sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
+                rod: RodModel(law: Constant, material: Rigidities(
+                    shear_pn: ({shear:?}, {shear:?}, {shear:?}),
+                    bend_pn_nm2: ({BEND:?}, {BEND:?}, {twist:?}),
+                )),
+            ),
+            clamps: [{clamps}],
+            {rest}
+        )"
+    )
+}

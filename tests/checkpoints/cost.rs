@@ -7,19 +7,11 @@ use actin_mechanics::System;
 use actin_sim::Scene;
 use std::time::Instant;
 
+#[rustfmt::skip]
 const FILAMENTS: [(&str, &str); 4] = [
-    (
-        "rod, 16 segments",
-        "Rod(from_nm: 0.0, to_nm: 160.0, segments: 16)",
-    ),
-    (
-        "rod, 64 segments",
-        "Rod(from_nm: 0.0, to_nm: 640.0, segments: 64)",
-    ),
-    (
-        "rod, 1024 segments",
-        "Rod(from_nm: 0.0, to_nm: 10240.0, segments: 1024)",
-    ),
+    ("rod, 16 segments", "Rod(from_nm: 0.0, to_nm: 160.0, segments: 16)"),
+    ("rod, 64 segments", "Rod(from_nm: 0.0, to_nm: 640.0, segments: 64)"),
+    ("rod, 1024 segments", "Rod(from_nm: 0.0, to_nm: 10240.0, segments: 1024)"),
     ("60 monomers", "Ellipsoids(from_nm: 0.0, to_nm: 163.0)"),
 ];
 

@@ -56,7 +56,7 @@ impl DamagedRun {
 }
 
 fn places(length: usize) -> impl Iterator<Item = usize> {
-    let stride = (length / 1000).max(1);
+    let stride = (length / 300).max(1);
     (0..length.min(64)).chain((64..length).step_by(stride))
 }
 

@@ -124,7 +124,6 @@ fn other_runs_are_not_extended() {
         run(&path, &short).unwrap();
         let before = files(&path);
         let message = run(&path, &other).unwrap_err().to_string();
-        println!("{message}");
         assert!(message.contains(reason), "{message}");
         assert!(files(&path) == before);
         assert_eq!(run(&path, &short).unwrap(), None);

@@ -106,7 +106,7 @@ fn choice() -> impl Strategy<Value = Choice> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(ProptestConfig { cases: 36, failure_persistence: None, ..Default::default() })]
 
     #[test]
     fn motions_resume_to_the_same_bits(
@@ -118,7 +118,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 30, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(ProptestConfig { cases: 18, failure_persistence: None, ..Default::default() })]
 
     #[test]
     fn paths_of_equilibria_resume_to_the_same_bits(

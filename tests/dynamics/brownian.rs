@@ -32,7 +32,7 @@ fn cantilever(sections: &str, task: &str) -> String {
 #[test]
 fn a_cantilever_relaxes_to_its_equilibrium() {
     for sections in SECTIONS {
-        let task = "Brownian(duration_ms: 0.006, temperature_k: 0.0, time_step_ns: 1.0, record_every_ns: 150.0)";
+        let task = "Brownian(duration_ms: 0.003, temperature_k: 0.0, time_step_ns: 1.0, record_every_ns: 150.0)";
         let (assembly, records) = run(&cantilever(sections, task));
         let tip = |record: &Record| assembly.tip_nm(&record.state, End::End).x;
         let (_, rest) = run(&cantilever(sections, "Equilibrium()"));

@@ -1,6 +1,5 @@
 //! Collisions of filaments: order, energy, momenta, time step.
 
-use super::record::scientific;
 use crate::common::{apart, build, ran, run_anyway};
 use actin_integrate::{Drag, PEFRL, POSITION_VERLET, advance};
 use actin_mechanics::{State, System, Vector3, segments};
@@ -64,11 +63,6 @@ fn methods_keep_their_order_through_a_hit() {
     for (scheme, steps, bound) in [(&POSITION_VERLET, 400, 0.1), (&PEFRL, 100, 0.15)] {
         let errors = [1, 2, 4].map(|n| apart(after(scheme, n * steps).state(), reference.state()));
         let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(f64::log2);
-        println!(
-            "{}: errors {}, orders {orders:.3?}",
-            scheme.name(),
-            scientific(&errors)
-        );
         let expected = f64::from(scheme.order());
         assert!((orders[1] - expected).abs() < bound, "{orders:?}");
     }
@@ -89,7 +83,6 @@ fn a_hit_conserves_energy_and_momenta() {
         (system.total_energy() / energy - 1.0).abs()
     };
     let errors = [200, 400].map(drift);
-    println!("energy {energy:.1} pN nm, drift {}", scientific(&errors));
     assert!(errors[1] < 1e-6, "{errors:?}");
 }
 
@@ -118,9 +111,6 @@ fn the_time_step_includes_contact_before_it_occurs() {
             let known = plan.estimate().unwrap().largest_frequency_rad_per_ns;
             let met = actin_integrate::largest_frequency(&pressed.system).unwrap();
             let alone = actin_integrate::largest_frequency(&apart.system).unwrap();
-            println!(
-                "{section}, {stiffness}: {alone:.0} apart, {met:.0} pressed, {known:.0} taken"
-            );
             // The limit is an upper bound. From 1e4 pN/nm contact dominates by more than a half.
             assert!(
                 met <= known && (stiffness < 1e4 || met > 1.5 * alone),
@@ -155,7 +145,6 @@ fn passing_through_between_records_fails() {
     };
     let (records, result) = run("1.0");
     let failure = result.unwrap_err().to_string();
-    println!("{failure}");
     assert!(
         failure.starts_with("bodies pass through each other despite their repulsion at step")
             && failure.contains("\"repulsion\"")
@@ -249,22 +238,7 @@ fn pressed(pairs: u32, steps: u32, anchor_nm: f64, seed: u32) -> [f64; 2] {
 fn filaments_pressed_in_water_do_not_pass_through_each_other() {
     for anchor_nm in [0.0, -60.0] {
         let [least, mean] = pressed(5, 40, anchor_nm, 5);
-        println!("anchors at {anchor_nm} nm: height at least {least:.2} nm, mean {mean:.2} nm");
         assert!(least > 4.0 && mean > 7.0, "{least}");
-    }
-}
-
-/// A million steps of pairs of filaments.
-#[test]
-#[ignore = "takes minutes; run by hand with --ignored --nocapture"]
-fn filaments_pressed_for_long_do_not_pass_through_each_other() {
-    for anchor_nm in [0.0, -60.0] {
-        let mut least = f64::INFINITY;
-        for seed in 0..10 {
-            least = least.min(pressed(10, 5000, anchor_nm, seed)[0]);
-        }
-        println!("anchors at {anchor_nm} nm: height at least {least:.2} nm");
-        assert!(least > 0.0, "{least}");
     }
 }
 

@@ -99,7 +99,6 @@ fn work_and_drag_are_recorded() {
         for (integrator, order) in [("PositionVerlet", 2), ("Pefrl", 4)] {
             let text = scene(body, &format!("{DRAG}, integrator: {integrator}"));
             let [(at_default, size), (at_half, _)] = [1.0, 0.5].map(|share| open(&text, share));
-            println!("{name}, {integrator}: {at_default:.1e}, {at_half:.1e} of {size:.2} pN nm");
             assert!(size > 1.0 && at_default < 1e-3 * size, "{name}");
             // Order of the method, less half an order for the records.
             assert!(
@@ -120,7 +119,6 @@ fn heat_is_recorded() {
     for (name, task) in [("a bath", bath.as_str()), ("water", water)] {
         let text = scene(DRIVEN[0].1, task);
         let [(at_default, _), (at_quarter, size)] = [1.0, 0.25].map(|share| open(&text, share));
-        println!("{name}: {at_default:.1e}, {at_quarter:.1e} of {size:.2} pN nm");
         assert!(size > 100.0 && at_quarter < 0.01 * size, "{name}");
         assert!(at_default > 8.0 * at_quarter, "{name}");
     }
@@ -131,7 +129,6 @@ fn overdamped_motion_records_work_and_drag() {
     for (name, body) in DRIVEN {
         let text = overdamped(body, "temperature_k: 0.0, time_step_ns: 0.004");
         let [(left, size), (at_half, _)] = [1.0, 0.5].map(|share| open(&text, share));
-        println!("{name}: {left:.1e}, {at_half:.1e} of {size:.2} pN nm");
         assert!(size > 1.0 && left < 0.01 * size, "{name}");
         assert!(left > at_half * 2.0_f64.powf(1.5), "{name}");
     }
@@ -217,7 +214,6 @@ fn work_of_a_couple_over_turns_is_recorded() {
     ] {
         let rod = "Rod(from_nm: 0.0, to_nm: 60.0)";
         let (left, size) = open(&of_sections(rod, body, &task), 1.0);
-        println!("{task}: {left:.1e} of {size:.2} pN nm");
         assert!(size > 400.0 * 2.0 * TAU && left < bound * size, "{task}");
     }
 }

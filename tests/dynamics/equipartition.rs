@@ -8,9 +8,7 @@
 //! - `M^-1 grad U`: weights with the squared frequency.
 
 use super::filaments::KBT;
-use actin_integrate::{
-    Bath, Drag, PEFRL, Run, SAFETY, advance, advance_in, largest_frequency, stable_step,
-};
+use actin_integrate::{Bath, Drag, PEFRL, Run, SAFETY, advance_in, largest_frequency, stable_step};
 use actin_mechanics::{Coordinates, State, Stiffness, System, UnitQuaternion, Vector3};
 use actin_sim::{Assembly, Scene};
 
@@ -196,36 +194,6 @@ fn temperatures_of_positions_at_shares_of_the_limit() {
                 let words: Vec<_> = words.collect();
                 println!("{case:?}: {}", words.join(", "));
             }
-        }
-    }
-}
-
-/// Growth of the energy of monomers at 298 K without drag, per ns and relative to `kT` per degree
-/// of freedom. The excess temperature under a drag `g` is this value over `g`.
-#[test]
-#[ignore = "takes minutes; run by hand with --ignored --nocapture"]
-fn energy_that_the_step_adds_at_room_temperature() {
-    const TIME_NS: f64 = 100.0;
-    for bonds in [64, 16] {
-        for share in [1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0] {
-            let growth = (0..8).map(|seed| {
-                let mut system = monomers(bonds);
-                let frequency = largest_frequency(&system).unwrap();
-                let h = stable_step(&PEFRL, frequency, share).unwrap();
-                let bath = Bath::new(Drag::new(5.0, 5.0).unwrap(), KBT, seed).unwrap();
-                advance_in(&mut system, &PEFRL, h, steps(h, 2.0), &bath, 0);
-                let before = system.total_energy();
-                advance(&mut system, &PEFRL, h, steps(h, TIME_NS), &Drag::NONE);
-                let state = system.state();
-                let coordinates = 3.0 * (state.points.len() + state.frames.len()) as f64;
-                (system.total_energy() - before) / (KBT * coordinates * TIME_NS)
-            });
-            let growth: Vec<f64> = growth.collect();
-            let mean = growth.iter().sum::<f64>() / growth.len() as f64;
-            let largest = growth.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
-            println!(
-                "{bonds} bonds, {share:.3} of the limit: mean {mean:.1e} per ns, largest {largest:.1e}"
-            );
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Free filaments of these tests and their initial motion.
 
+use actin_integrate::{Composition, largest_frequency, stable_step};
 use actin_mechanics::{State, System, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 use actin_sim::{Assembly, ForceLaw, Scene};
@@ -164,4 +165,9 @@ pub(crate) fn distances(a: &State, b: &State) -> [f64; 4] {
         largest(&mut (0..a.frames.len()).map(turn)),
         of(&a.frames.angular_momentum, &b.frames.angular_momentum),
     ]
+}
+
+/// Time step at a share of the stability limit.
+pub(crate) fn step(system: &System, scheme: &Composition, share: f64) -> f64 {
+    stable_step(scheme, largest_frequency(system).unwrap(), share).unwrap()
 }

@@ -1,10 +1,9 @@
 //! Conservation laws of two free filaments joined by linkers.
 
-use super::filaments::fly;
-use super::invariants::{scales, step};
+use super::filaments::{fly, step};
 use super::record::scientific;
 use actin_integrate::{Drag, PEFRL, advance};
-use actin_mechanics::{System, Vector3};
+use actin_mechanics::{State, System, Vector3};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 use actin_sim::{Assembly, Scene};
 
@@ -48,6 +47,18 @@ fn tumbling() -> System {
     );
     fly(state, velocity, omega);
     system
+}
+
+/// Sums of the norms of momenta and of their moments, as scales of round-off.
+fn scales(state: &State) -> (f64, f64) {
+    let momentum = |i: usize| state.points.velocity.get(i).norm() / state.points.inverse_mass()[i];
+    let points = 0..state.points.len();
+    let moment = |i: usize| state.points.position.get(i).norm() * momentum(i);
+    let spins: f64 = state.frames.angular_momentum.iter().map(|l| l.norm()).sum();
+    (
+        points.clone().map(momentum).sum(),
+        points.map(moment).sum::<f64>() + spins,
+    )
 }
 
 #[test]

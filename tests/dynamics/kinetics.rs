@@ -49,9 +49,6 @@ fn energy_changes_by_events_are_recorded() {
             .zip(&booked)
             .map(|(total, booked)| (total - booked - start).abs());
         let open = energy_balance.fold(0.0, f64::max);
-        println!(
-            "{integrator}: {counts:?} broke, formed, stepped; {size:.2} pN nm booked, {open:e} not"
-        );
         assert!(counts.iter().all(|&count| count > 2), "{counts:?}");
         assert!(size > 10.0 && open < 1e-6 * size, "{open}");
         let on_rod = events
@@ -74,11 +71,9 @@ fn a_motor_pulls_until_it_stalls() {
         task: Dynamics(duration_ns: 20.0, record_every_ns: 0.5,
             drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0)),
     )";
-    let (assembly, trajectory, outcome) = ran(text);
+    let (assembly, trajectory, _) = ran(text);
     let last = &trajectory.records.last().unwrap().state;
     let (bound, at_nm) = assembly.switched(0, last).unwrap();
-    let force = 0.5 * (at_nm - 30.0);
-    println!("{} steps, {force} pN at {at_nm} nm", outcome.events.len());
     // 6 pN are 12 nm, where the rate is zero.
     assert!(bound && (at_nm - 42.0).abs() < 2.1, "{at_nm}");
 }
@@ -117,23 +112,9 @@ fn lifetime_in_heat(stiffness: f64, rest_length_nm: f64, filaments: u32, seed: u
 #[test]
 fn thermal_forces_do_not_break_linkers() {
     for (stiffness, rest_length_nm) in [(0.01, 0.0), (50.0, 0.0), (50.0, 10.0)] {
-        let mean = lifetime_in_heat(stiffness, rest_length_nm, 150, 3);
-        println!("{stiffness} pN/nm, rest length {rest_length_nm} nm: {mean:.1} us");
-        // About 140 events: 8.5 us.
-        assert!((mean - 100.0).abs() < 3.0 * 8.5, "{mean}");
-    }
-}
-
-#[test]
-#[ignore = "takes minutes; run by hand with --ignored --nocapture"]
-fn lifetimes_without_load_do_not_depend_on_stiffness() {
-    for rest_length_nm in [0.0, 10.0] {
-        for stiffness in [0.01, 0.1, 1.0, 10.0, 50.0] {
-            let means = (0..20).map(|seed| lifetime_in_heat(stiffness, rest_length_nm, 150, seed));
-            let mean = means.sum::<f64>() / 20.0;
-            println!("{stiffness} pN/nm, rest length {rest_length_nm} nm: {mean:.1} +- 1.9 us");
-            assert!((mean - 100.0).abs() < 5.0 + 2.0 * 1.9, "{mean}");
-        }
+        let mean = lifetime_in_heat(stiffness, rest_length_nm, 60, 3);
+        // About 57 events: 13.3 us.
+        assert!((mean - 100.0).abs() < 3.0 * 13.3, "{mean}");
     }
 }
 

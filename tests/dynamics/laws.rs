@@ -1,8 +1,8 @@
-//! Motion of rods under nonconstant laws: order, momenta, energy. Every state is twisted and
+//! Motion of rods under nonconstant laws: order and energy. Every state is twisted and
 //! stretched.
 
 use super::filaments::{Filament, MIXED, ROD, ROD_AT_BOTH_ENDS, assemble_of, distances, fly_off};
-use super::record::{EnergyRecord, scientific};
+use super::record::EnergyRecord;
 use actin_integrate::{Drag, PEFRL, advance, largest_frequency, stable_step};
 
 use actin_mechanics::{State, System};
@@ -23,8 +23,8 @@ struct Case {
 }
 
 impl Case {
-    /// Every law on every filament with a rod, over- and under-twisted. Rods are stretched as by
-    /// 100 pN.
+    /// Every law on a rod, over- and under-twisted, and on mixed filaments with one sense of twist
+    /// each. Rods are stretched as by 100 pN.
     ///
     /// Mixed filaments are deformed less, since their junctions have bending elements of 0.7 nm. A
     /// rotation of 0.03 rad there exceeds the range of a published law, and 0.002 rad is half of
@@ -32,19 +32,18 @@ impl Case {
     fn all() -> Vec<Self> {
         let filaments = [
             (ROD, [6e-3, -3e-3, 1.5e-2], 3e-3),
+            (ROD, [6e-3, -3e-3, -1.5e-2], 3e-3),
             (MIXED, [1.2e-3, -6e-4, 1e-2], 1e-3),
-            (ROD_AT_BOTH_ENDS, [1.2e-3, -6e-4, 1e-2], 1e-3),
+            (ROD_AT_BOTH_ENDS, [1.2e-3, -6e-4, -1e-2], 1e-3),
         ];
         let mut all = Vec::new();
-        for (filament, [x, y, twist], extension) in filaments {
-            for law in LAWS {
-                all.extend([twist, -twist].map(|twist| Self {
-                    filament,
-                    law,
-                    kappa: [x, y, twist],
-                    extension,
-                }));
-            }
+        for (filament, kappa, extension) in filaments {
+            all.extend(LAWS.map(|law| Self {
+                filament,
+                law,
+                kappa,
+                extension,
+            }));
         }
         all
     }
@@ -106,37 +105,18 @@ fn every_law_moves_with_order_four() {
             .map(|(coarse, fine)| (coarse / fine).log2())
             .collect();
         let name = case.name();
-        println!(
-            "{name}: errors {}, orders {orders:.3?}",
-            scientific(&coarse)
-        );
         // The next term of the error is of relative order (omega h)^2, as in `order.rs`.
         assert!(orders.iter().all(|o| (o - 4.0).abs() < 0.05), "{name}");
     }
 }
 
 #[test]
-fn every_law_keeps_momenta() {
-    for case in Case::all() {
-        let mut system = case.in_flight();
-        let (p, l) = (system.state().momentum(), system.state().angular_momentum());
-        advance(&mut system, &PEFRL, case.step(0.25), 10_000, &Drag::NONE);
-        let (p_end, l_end) = (system.state().momentum(), system.state().angular_momentum());
-        let changes = [(p_end - p).norm() / p.norm(), (l_end - l).norm() / l.norm()];
-        println!("{}: relative changes {}", case.name(), scientific(&changes));
-        // 4e4 kicks of round-off 1e-16, with lever arms up to 10 times the length of the filaments.
-        assert!(changes[0] < 1e-13 && changes[1] < 1e-12, "{changes:?}");
-    }
-}
-
-#[test]
 fn every_law_keeps_its_energy() {
     for case in Case::all() {
-        let [coarse, fine] = [(0.25, 10_000), (0.125, 20_000)].map(|(share, steps)| {
+        let [coarse, fine] = [(0.25, 6000), (0.125, 12_000)].map(|(share, steps)| {
             EnergyRecord::new(&mut case.in_flight(), case.step(share), steps, |_| ())
         });
         let (name, ratio) = (case.name(), coarse.early() / fine.early());
-        println!("{name}: {}, ratio {ratio:.0}", coarse.line());
         // Over the first three tenths, before chaotic divergence: 6 or more (measured), 1 for a
         // wrong gradient. The onset of compression limits `Homogenised`.
         assert!(ratio > 3.0 || case.law == "Homogenised", "{name}: {ratio}");

@@ -8,7 +8,6 @@ mod energy;
 mod energy_balance;
 mod equipartition;
 mod filaments;
-mod invariants;
 mod joined;
 mod kinetics;
 mod laws;

@@ -20,7 +20,6 @@ fn run(text: &str) -> (Assembly, Vec<Record>, Summary) {
 
 fn mean(summary: &Summary, column: &str) -> MeanSummary {
     let mean = summary.observables[column].mean.unwrap();
-    println!("{column}: {mean:?}");
     assert!(mean.levelled_off, "{column}");
     mean
 }
@@ -99,7 +98,6 @@ fn a_free_rod_is_a_worm_like_chain() {
         derived.persistence_length_nm.unwrap(),
         derived.persistence_length_error_nm.unwrap(),
     );
-    println!("persistence length {p} +- {error} nm");
     // 0.5 % of the cosine are 1.7 % of the length.
     assert!((p - LENGTH).abs() < ERRORS * error + 1.7, "{p} {error}");
     let mut squares = BlockAverages::default();

@@ -48,7 +48,6 @@ fn strains_agree_with_bonds() {
     let long_steps = fluctuations(&scene(section, &quasi_harmonic(0.08, 20.0)));
     let chain = long_steps.chain(KBT).unwrap();
     let distance = fluctuations(&scene(section, bonds)).distance_from(&chain, KBT);
-    println!("{distance}");
     assert!(distance < 0.05, "{distance}");
 }
 
@@ -81,7 +80,6 @@ fn warmth(attached: usize) -> [f64; 2] {
 #[test]
 fn energy_agrees_with_the_temperature() {
     let (open, loops) = (warmth(1), warmth(2));
-    println!("{open:?}, with loops {loops:?}");
     for warmth in [open[0], open[1], loops[1]] {
         assert!((warmth - 1.0).abs() < 0.02, "{open:?}, {loops:?}");
     }

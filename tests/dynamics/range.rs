@@ -35,7 +35,6 @@ fn fluctuations_beyond_the_data_are_summed_up() {
         assert_eq!((beyond.quantity.as_str(), beyond.filament), (quantity, 0));
         let expected = counted(&assembly, states(), quantity, range);
         let often = beyond.fluctuations.expect("a bath");
-        println!("{beyond:?}");
         let found = [
             often.share_of_records,
             often.share_of_elements,

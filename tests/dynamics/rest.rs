@@ -72,7 +72,6 @@ fn an_imperfection_leads_to_the_buckled_state() {
     let imperfection = "imperfection: (amplitude_nm: 0.01, seed: 1),";
     let (trajectory, report) = moved(&pushed(imperfection, &damped(STOP))).unwrap();
     let error = energy(&trajectory) / buckled() - 1.0;
-    println!("imperfection: {error:.1e} from statics");
     assert!(error.abs() < 1e-8, "{error:e}");
     assert!(report.has_converged() && report.at_rest.unwrap().negative == 0);
     assert!(report.pushes.is_empty());
@@ -84,7 +83,6 @@ fn a_motion_is_pushed_off_saddles() {
         let task = damped(&format!("leave_saddles: 3, {stop}"));
         let (trajectory, report) = moved(&pushed("", &task)).unwrap();
         let error = energy(&trajectory) / buckled() - 1.0;
-        println!("pushed: {error:.1e} from statics, {:?}", report.pushes);
         assert!(error.abs() < bound, "{error:e}");
         assert_eq!(report.at_rest.unwrap().negative, 0);
         assert_eq!(report.saddles_left, report.pushes.len());

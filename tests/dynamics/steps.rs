@@ -1,6 +1,6 @@
 //! Time steps of filaments with junctions and of long segments.
 
-use super::invariants::step;
+use super::filaments::step;
 use crate::common::build;
 use actin_integrate::PEFRL;
 use actin_sim::Plan;

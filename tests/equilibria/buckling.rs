@@ -1,12 +1,7 @@
 //! Critical loads of columns from singular stiffness, and post-buckling.
 
-use super::common::{
-    BEND, LENGTH, SHEAR, build, cantilever, critical, frame, material, newton, point, solved, to,
-};
-use crate::theory::second_order_limit;
-use actin_cosserat::{RodElements, RodJoint, RodSegment};
-use actin_equilibrium::{BodyOrder, Group, Layout, Newton};
-use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};
+use super::common::{BEND, LENGTH, SHEAR, build, cantilever, critical, newton, solved};
+use crate::theory::{bisect, second_order_limit};
 use actin_sim::End;
 use std::f64::consts::PI;
 
@@ -15,131 +10,54 @@ const MESHES: [usize; 3] = [16, 32, 64];
 /// `B / L^2` of [`cantilever`].
 const UNIT: f64 = BEND / (LENGTH * LENGTH);
 
+const THRUST: &str = "EndForce(end: End, force_pn: (0.0, 0.0, -1.0))";
+const CLAMPED: &str = "Clamp(end: Start)";
+const PINNED: &str = "Clamp(end: Start, hold: Pin)";
+
+/// Factor of a load at which a straight column between `clamps` becomes unstable.
+fn buckling_factor(segments: usize, clamps: &str, load: &str, bounds: [f64; 2]) -> f64 {
+    let text = cantilever(segments, [0.0, 0.0, -1.0], "task: Equilibrium()");
+    let text = text.replace(CLAMPED, clamps).replace(THRUST, load);
+    let assembly = build(&text);
+    let interactions = assembly.system.interactions();
+    let straight = assembly.system.state();
+    critical(&mut newton(&assembly, 1e-8), straight, interactions, bounds)
+}
+
+/// `x` of the critical load `x^2 B / L^2` of a column on a hinge of `k = share B / L`, pinned at the
+/// other end: `x / tan(x) = 1 + x^2 / share`.
+fn hinged(share: f64) -> f64 {
+    let is_beyond = |x: f64| x / x.tan() < 1.0 + x * x / share;
+    bisect(is_beyond, [PI + 1e-9, 4.493_409_457_909_064 - 1e-9], 1e-14)
+}
+
+/// Euler's columns, with the axial rotation as a neutral mode between pins, and the column under its
+/// own weight: `q L^3 / B = 7.8373474389`, from the smallest zero of a Bessel function of order -1/3.
+/// Source: Greenhill (1881).
 #[test]
-fn clamped_free_column() {
-    let values = MESHES.map(|segments| {
-        let assembly = build(&cantilever(
-            segments,
-            [0.0, 0.0, -1.0],
-            "task: Equilibrium()",
-        ));
-        let mut newton = newton(&assembly, 1e-8);
-        let interactions = assembly.system.interactions();
-        let straight = assembly.system.state();
-        critical(
-            &mut newton,
-            straight,
-            interactions,
-            [2.0 * UNIT, 3.0 * UNIT],
-        )
-    });
-    let exact = 0.25 * PI * PI * UNIT;
-    let limit = second_order_limit("Euler, clamped and free", values, exact, 0.03);
-    assert!(limit.abs() < 1e-5, "{limit:e}");
-}
-
-#[derive(Default)]
-struct Parts {
-    segments: Vec<RodSegment>,
-    joints: Vec<RodJoint>,
-}
-
-impl Parts {
-    fn rod(self) -> RodElements {
-        RodElements::new(material([1e4; 3], [1.0; 3]), self.segments, self.joints).unwrap()
+fn columns_buckle_at_their_critical_loads() {
+    let spring = format!(
+        "Clamp(end: Start, hold: Pin, hinge: (bend_pn_nm_per_rad: {:?}, twist_pn_nm_per_rad: 50.0))",
+        2.0 * BEND / LENGTH
+    );
+    let pin = "Clamp(end: End, hold: Pin, slides: AlongAxis)";
+    let wall = "Clamp(end: End, slides: AlongAxis)";
+    let weight = "ForcePerLength(force_pn_per_nm: (0.0, 0.0, -1.0))";
+    let between = |start: &str, end: &str| format!("{start}, {end}");
+    #[rustfmt::skip]
+    let cases = [
+        ("clamped and free", CLAMPED.to_owned(), THRUST, 0.25 * PI * PI * UNIT),
+        ("pinned", between(PINNED, pin), THRUST, PI * PI * UNIT),
+        ("clamped", between(CLAMPED, wall), THRUST, 4.0 * PI * PI * UNIT),
+        ("on a hinge", between(&spring, pin), THRUST, hinged(2.0).powi(2) * UNIT),
+        ("under its weight", CLAMPED.to_owned(), weight, 7.837_347_438_9 * UNIT / LENGTH),
+    ];
+    for (what, clamps, load, exact) in cases {
+        let bounds = [0.8 * exact, 1.2 * exact];
+        let values = MESHES.map(|segments| buckling_factor(segments, &clamps, load, bounds));
+        let limit = second_order_limit(what, values, exact, 0.03);
+        assert!(limit.abs() < 1e-5, "{what}: {limit:e}");
     }
-}
-
-/// Straight column of unit length and bending rigidity on `n` segments along z. Without a wall its
-/// first frame is free.
-fn column(n: usize, wall: bool) -> (State, Parts, BodyOrder) {
-    let h = 1.0 / n as f64;
-    let mut state = State::default();
-    let mut parts = Parts::default();
-    let mut order = BodyOrder::default();
-    for k in 0..=n {
-        point(&mut state, Vector3::z() * (h * k as f64));
-        order.points.push(k as f64);
-    }
-    for k in 0..n {
-        let own = frame(&mut state, UnitQuaternion::identity());
-        order.frames.push(k as f64 + 0.5);
-        parts.segments.push(RodSegment {
-            points: [k, k + 1],
-            frame: own,
-            rest_length: h,
-        });
-        if k > 0 {
-            parts.joints.push(RodJoint::straight([k - 1, k], h));
-        }
-    }
-    state.points.hold(0);
-    if wall {
-        let held = frame(&mut state, UnitQuaternion::identity());
-        order.frames.push(0.0);
-        state.frames.hold(held);
-        parts.joints.push(RodJoint::straight([held, 0], 0.5 * h));
-    }
-    state.add_control(0.0);
-    (state, parts, order)
-}
-
-/// The axial rotation is a neutral mode.
-#[test]
-fn pinned_column() {
-    let values = MESHES.map(|n| {
-        let (state, parts, order) = column(n, false);
-        let control = state.controls.ids().next().unwrap();
-        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), control).unwrap();
-        let slider = Group::sliding(vec![n], vec![], Vector3::z());
-        let layout = Layout::new(&state, Some(&order), vec![slider]).unwrap();
-        let mut newton = Newton::new(layout, to(1e-9)).unwrap();
-        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(parts.rod()), Box::new(load)];
-        critical(&mut newton, &state, &terms, [9.0, 11.0])
-    });
-    let limit = second_order_limit("Euler, pinned", values, PI * PI, 0.03);
-    assert!(limit.abs() < 1e-5, "{limit:e}");
-}
-
-#[test]
-fn clamped_column() {
-    let values = MESHES.map(|n| {
-        let (mut state, mut parts, mut order) = column(n, true);
-        let held = frame(&mut state, UnitQuaternion::identity());
-        order.frames.push(n as f64);
-        state.frames.hold(held);
-        let distance = 0.5 / n as f64;
-        let joint = RodJoint::straight([n - 1, held], distance);
-        parts.joints.push(joint);
-        let control = state.controls.ids().next().unwrap();
-        let load = PointLoad::new(&state, vec![(n, 1.0)], -Vector3::z(), control).unwrap();
-        let slider = Group::sliding(vec![n], vec![held], Vector3::z());
-        let layout = Layout::new(&state, Some(&order), vec![slider]).unwrap();
-        let mut newton = Newton::new(layout, to(1e-9)).unwrap();
-        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(parts.rod()), Box::new(load)];
-        critical(&mut newton, &state, &terms, [36.0, 42.0])
-    });
-    let limit = second_order_limit("Euler, clamped", values, 4.0 * PI * PI, 0.03);
-    assert!(limit.abs() < 1e-5, "{limit:e}");
-}
-
-/// Column under its own weight: `q L^3 / B = 7.8373474389`, from the smallest zero of a Bessel
-/// function of order -1/3. Source: Greenhill (1881).
-#[test]
-fn greenhills_column() {
-    let values = MESHES.map(|n| {
-        let (state, parts, order) = column(n, true);
-        let weight = |k: usize| if k == n { 0.5 } else { 1.0 } / n as f64;
-        let shares = (1..=n).map(|k| (k, weight(k))).collect();
-        let control = state.controls.ids().next().unwrap();
-        let load = PointLoad::new(&state, shares, -Vector3::z(), control).unwrap();
-        let layout = Layout::new(&state, Some(&order), vec![]).unwrap();
-        let mut newton = Newton::new(layout, to(1e-9)).unwrap();
-        let terms: Vec<Box<dyn Interaction>> = vec![Box::new(parts.rod()), Box::new(load)];
-        critical(&mut newton, &state, &terms, [7.0, 9.0])
-    });
-    let limit = second_order_limit("Greenhill", values, 7.837_347_438_9, 0.03);
-    assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
 /// Complete elliptic integrals of the first and second kind by the arithmetic-geometric mean.

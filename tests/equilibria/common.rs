@@ -7,7 +7,9 @@ use actin_mechanics::testing::{push_frame, push_point};
 use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3};
 use actin_sim::{Assembly, Outcome};
 
-pub(crate) use crate::common::{apart, build, failure, ran, run, run_anyway};
+pub(crate) use crate::common::{
+    BEND, LENGTH, apart, build, failure, ran, rod_scene, run, run_anyway,
+};
 
 pub(crate) fn solved(text: &str) -> (Assembly, Outcome) {
     let (assembly, _, outcome) = ran(text);
@@ -23,33 +25,14 @@ pub(crate) const MIXED: &str = "Filament(
     rod: RodModel(law: Constant),
 )";
 
-/// Scene of a cantilever rod: 160 nm, `B = 3.9e4` pN nm^2, under a tip force (pN).
-///
-/// Shear and stretch have the same rigidity `S` (pN). The moment `n x r'` with `r' = d3 + n/S` is
-/// then equal to the moment for an unstrained segment, and frames are exactly as in an inextensible
-/// rod.
+/// Scene of a cantilever rod under a tip force (pN).
 pub(crate) fn cantilever(segments: usize, force: [f64; 3], task: &str) -> String {
     let [x, y, z] = force;
-    format!(
-        "Scene(
-            filament: Filament(
-                sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
-                rod: RodModel(law: Constant, material: Rigidities(
-                    shear_pn: ({SHEAR:?}, {SHEAR:?}, {SHEAR:?}),
-                    bend_pn_nm2: ({BEND:?}, {BEND:?}, 1.3e4),
-                )),
-            ),
-            clamps: [Clamp(end: Start)],
-            loads: [EndForce(end: End, force_pn: ({x:?}, {y:?}, {z:?}))],
-            {task}
-        )"
-    )
+    let loads = format!("loads: [EndForce(end: End, force_pn: ({x:?}, {y:?}, {z:?}))],");
+    let rest = format!("{loads} {task}");
+    rod_scene(segments, (SHEAR, 1.3e4), "Clamp(end: Start)", &rest)
 }
 
-/// Length of [`cantilever`] (nm).
-pub(crate) const LENGTH: f64 = 160.0;
-/// Bending rigidity of [`cantilever`] (pN nm^2).
-pub(crate) const BEND: f64 = 3.9e4;
 /// Shear and stretch rigidity of [`cantilever`] (pN).
 pub(crate) const SHEAR: f64 = 1e5;
 

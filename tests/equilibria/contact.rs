@@ -53,10 +53,6 @@ fn check_press(name: WallName, wall: &str) {
     let deflection = x(k).x + share * (x(k + 1).x - x(k).x);
     let expected = deflection / (z.powi(3) / (3.0 * 3.9e4) + z / 1.6e4);
     let error = force.x / expected - 1.0;
-    println!(
-        "{}: {:.5} pN at {z:.2} nm for {deflection:.4} nm, {error:e} from beam theory",
-        name.shape, force.x
-    );
     assert!(force.x > 0.03 && error.abs() < 5e-3, "{error}");
 }
 
@@ -93,7 +89,6 @@ fn check_depth(wall: &str) {
         let (assembly, outcome) = solved(&text);
         let state = assembly.system.state();
         let gap = assembly.smallest_gap_nm(state).unwrap();
-        println!("{wall}, {section}: {gap:.6} nm, {depth:.6} nm deep");
         // Ends of a clamped monomer filament extend a rise beyond the load: 3 % more length, 1 %
         // less depth.
         let bound = if section.starts_with("Rod") {
@@ -208,7 +203,6 @@ fn contacts_across_faces_equal_contacts_in_the_open() {
         });
         let largest = apart.fold(0.0, f64::max);
         let gap = b.smallest_gap_nm(second).unwrap();
-        println!("{task}: {largest:e} nm apart, gap {gap} nm");
         assert!(largest < 1e-8 && gap < -0.3, "{task}: {largest:e} {gap}");
     }
 }
@@ -303,7 +297,6 @@ fn a_path_does_not_lead_filaments_through_each_other() {
         let (trajectory, outcome) = run_anyway(&mut assembly);
         let (failure, _) = failure(outcome);
         let reason = failure.to_string();
-        println!("{stiffness} pN/nm, steps of {largest_step}: {reason}");
         assert!(reason.contains("an interaction forbids"), "{reason}");
         let last = &trajectory.records.last().unwrap().state.points.position;
         let x = |filament: usize| {

@@ -168,46 +168,19 @@ const ONE_SEGMENT: &str = "Rod(from_nm: 0.0, to_nm: 10.0, segments: 1)";
 const TWO_MONOMERS: &str = "Rod(from_nm: 0.0, to_nm: 40.0),
     Ellipsoids(from_nm: 40.0, to_nm: 45.5), Rod(from_nm: 45.5, to_nm: 85.5)";
 
+#[rustfmt::skip]
 const PULLED: [(&str, &str, [f64; 3]); 11] = [
     ("1 pN across 16 um of rod", ROD_16000, [1.0, 0.0, 0.0]),
     ("1 pN against 16 um of rod", ROD_16000, [0.0, 0.0, -1.0]),
-    (
-        "1 pN across 1.6 um of monomers",
-        MONOMERS_1600,
-        [1.0, 0.0, 0.0],
-    ),
-    (
-        "1000 pN across 20 nm of monomers",
-        MONOMERS_20,
-        [1e3, 0.0, 0.0],
-    ),
-    (
-        "1000 pN along 20 nm of monomers",
-        MONOMERS_20,
-        [0.0, 0.0, 1e3],
-    ),
-    (
-        "1000 pN against 20 nm of monomers",
-        MONOMERS_20,
-        [0.0, 0.0, -1e3],
-    ),
+    ("1 pN across 1.6 um of monomers", MONOMERS_1600, [1.0, 0.0, 0.0]),
+    ("1000 pN across 20 nm of monomers", MONOMERS_20, [1e3, 0.0, 0.0]),
+    ("1000 pN along 20 nm of monomers", MONOMERS_20, [0.0, 0.0, 1e3]),
+    ("1000 pN against 20 nm of monomers", MONOMERS_20, [0.0, 0.0, -1e3]),
     ("1000 pN across 20 nm of rod", ROD_20, [1e3, 0.0, 0.0]),
     ("1000 pN against 20 nm of rod", ROD_20, [0.0, 0.0, -1e3]),
-    (
-        "10 pN across one segment of 10 nm",
-        ONE_SEGMENT,
-        [10.0, 0.0, 0.0],
-    ),
-    (
-        "2 pN across two monomers between rods",
-        TWO_MONOMERS,
-        [2.0, 0.0, 0.0],
-    ),
-    (
-        "1000 pN across two monomers between rods",
-        TWO_MONOMERS,
-        [1e3, 0.0, 0.0],
-    ),
+    ("10 pN across one segment of 10 nm", ONE_SEGMENT, [10.0, 0.0, 0.0]),
+    ("2 pN across two monomers between rods", TWO_MONOMERS, [2.0, 0.0, 0.0]),
+    ("1000 pN across two monomers between rods", TWO_MONOMERS, [1e3, 0.0, 0.0]),
 ];
 
 const TURNED: [(&str, &str, f64); 6] = [

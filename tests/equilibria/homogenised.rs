@@ -1,10 +1,8 @@
 //! Rods under the potential of the mean filament: convergence, agreement with monomers,
 //! certificates.
 
-use super::common::{build, solved};
-use actin_mechanics::testing::assert_is_balanced;
-use actin_mechanics::{Xorshift, perturb};
-use actin_sim::{Assembly, Outcome, Part};
+use super::common::solved;
+use actin_sim::{Assembly, Outcome};
 
 fn scene(sections: &str, end: &str, [x, y, z]: [f64; 3]) -> String {
     format!(
@@ -50,12 +48,8 @@ fn combined_loads_converge_with_order_two() {
 #[test]
 fn tips_under_tension() {
     for (along, monomers_pm) in [(1.0, 3650.0), (5.0, 1723.0), (10.0, 1054.0), (40.0, 328.0)] {
-        let [tip, _, longer] = moved(&solved(&scene(&rod(160.0, 32), "", [0.1, 0.0, along])));
+        let [tip, ..] = moved(&solved(&scene(&rod(160.0, 32), "", [0.1, 0.0, along])));
         let error = 1e3 * tip / monomers_pm - 1.0;
-        println!(
-            "{along} pN: {tip:.4} nm, {:+.1} %; longer by {longer:.4} nm",
-            1e2 * error
-        );
         assert!(error.abs() < 0.05, "{along}: {error}");
     }
 }
@@ -149,16 +143,4 @@ fn mixed_filaments_have_a_certificate() {
     let whole = moved(&solved(&scene(&rod(115.0, 12), "", [0.3, 0.0, 5.0])));
     println!("mixed {tip:.4?} nm, rod {whole:.4?} nm");
     assert!((tip[0] / whole[0] - 1.0).abs() < 0.1);
-}
-
-#[test]
-fn mixed_filaments_are_balanced() {
-    let assembly = build(&scene(MIXED, "", [0.3, 0.0, 5.0]));
-    let mut state = assembly.rest.clone();
-    perturb(&mut state, &mut Xorshift::new(3), 0.02, 0.02);
-    let named = assembly.terms.iter().zip(assembly.system.interactions());
-    for (term, interaction) in named.filter(|(term, _)| !matches!(term.part, Part::Load(_))) {
-        println!("{term:?}");
-        assert_is_balanced(&**interaction, &state, 1e-11);
-    }
 }

@@ -38,7 +38,6 @@ fn a_free_end_that_stays_ahead_loses_no_turn_unreported() {
         let end = format!(", slides: {slides}");
         let turn = "Turn(end: End, turn_deg: (0.0, 0.0, 3000.0))";
         let lost = lost_turns(&driven(&sections, &end, turn));
-        println!("{slides}: {lost}");
         assert!(lost.abs() >= 1.0, "{slides}");
     }
 }
@@ -49,7 +48,6 @@ fn tilted_ends_lose_nothing_unseen() {
     for turn in ["(0.0, 1.0, 3000.0)", "(0.0, 20.0, 2000.0)"] {
         let setting = format!("Turn(end: End, turn_deg: {turn})");
         let lost = lost_turns(&driven(&sections, ", slides: AlongAxis", &setting));
-        println!("{turn}: {lost}");
         assert!(lost.abs() >= 1.0, "{turn}");
     }
     let rod = "sections: [Rod(from_nm: 0.0, to_nm: 80.0, segments: 40)]";

@@ -2,7 +2,6 @@
 //! closed solutions of rods. `docs/measured/statics.md` quotes the numbers that these tests print
 //! (`-- --nocapture`).
 
-mod agreement;
 mod anchors;
 mod bend;
 mod buckling;
@@ -18,11 +17,9 @@ mod joined;
 mod linkers;
 mod long_segments;
 mod lost_twist;
-mod observed;
 mod reciprocity;
 mod ring;
 mod saddles;
-mod second_derivatives;
 mod several;
 mod shape;
 mod states;

@@ -92,13 +92,8 @@ fn couple_against_shift_is_force_against_turn() {
     ] {
         for turn_deg in [100.0, -80.0] {
             let held = Held::at(sections, law, turn_deg, 0.15);
-            let (force, couple) = held.beside(0.0, 0.0);
             let (of_shift, of_turn) = held.cross_derivatives();
             let difference = of_shift / of_turn - 1.0;
-            println!(
-                "{sections}, {law}, {turn_deg} deg: {force:.2} pN, {couple:.2} pN nm, \
-                 {of_shift:.6} and {of_turn:.6} pN, relative difference {difference:.1e}"
-            );
             assert!(of_turn.abs() > 10.0, "no coupling: {of_turn}");
             // Residuals of 1e-9 over steps of 2e-3 give 1e-6 pN of 50; the truncation error is
             // smaller.
@@ -116,7 +111,6 @@ fn tension_holds_a_rod_straight() {
             let held = Held::at(ROD, law, 0.0, shift_nm);
             let (force, _) = held.beside(0.0, 0.0);
             let expected = pull * shift_nm / 75.0;
-            println!("{law}, {shift_nm} nm: {force:.6} pN for {expected:.6}");
             assert!((force - expected).abs() < 1e-8, "{law}");
             let positions = held.state.points.position.iter();
             let farthest = positions.map(|x| x.xy().norm()).fold(0.0, f64::max);

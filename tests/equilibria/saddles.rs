@@ -3,27 +3,6 @@
 use super::common::{build, cantilever, failure, newton, run, run_anyway};
 use actin_sim::{End, Failure, Scene, Status};
 
-/// Beyond its critical load of 3.76 pN, `leave_saddles: 0` keeps the straight column on the saddle.
-#[test]
-fn a_column_that_is_kept_straight_is_a_saddle() {
-    let column = |task: &str| run_anyway(&mut build(&cantilever(8, [0.0, 0.0, -6.0], task)));
-    let (trajectory, ended) = column("task: Equilibrium(leave_saddles: 0)");
-    let (Failure::Saddle(problem), report) = failure(ended) else {
-        panic!("no saddle");
-    };
-    assert!(report.status == Status::Failed && report.saddles_left == 0);
-    // Both bending planes.
-    assert_eq!(report.certificate().unwrap().negative, 2);
-    assert_eq!(trajectory.records.len(), 1);
-    assert_eq!(
-        (problem.key.as_str(), problem.value.as_str()),
-        ("task.leave_saddles", "0")
-    );
-
-    let report = column("task: Equilibrium()").1.unwrap();
-    assert!(report.saddles_left > 0 && report.certificate().unwrap().negative == 0);
-}
-
 #[test]
 fn an_imperfection_chooses_the_side() {
     let tip = |seed: u64| {
@@ -62,7 +41,6 @@ fn lost_twist_of_mixed_filaments_is_an_error() {
         panic!("nothing slipped");
     };
     let told = format!("{place}{slip}");
-    println!("{told}");
     let parts = [
         "in stage 1 of 1",
         "filament 0 has lost 1 turn(s)",

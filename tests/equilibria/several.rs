@@ -222,7 +222,6 @@ fn a_path_moves_the_end_of_the_filament_that_it_names() {
     }];
     let moved = solve(&scene);
     let distance = apart((&moved, 0), (&built, 0), moved.points.len(), |x| x);
-    println!("path of filament 1: {distance:.1e} nm");
     assert!(distance < 1e-9, "{distance:e} nm apart");
     let held = moved.clamp_at(1, End::Start).unwrap();
     let point = held.point_nm(moved.system.state());

@@ -42,9 +42,6 @@ fn measured(what: &str, text: &str) -> [f64; 3] {
     let ribbon = Ribbon::new(&assembly, assembly.system.state());
     let (twist, writhe) = (ribbon.twist(), ribbon.writhe().unwrap());
     let height = ribbon.largest_distance_nm();
-    println!(
-        "{what}: twist {twist:.5}, writhe {writhe:.5}, height {height:.3} nm, off {worst:.1e}"
-    );
     // White's formula is exact for polygons, to the round-off of some thousand solid angles.
     assert!(worst < 1e-9, "{what}: {worst:e}");
     [twist, writhe, height]
@@ -62,7 +59,6 @@ fn twist_and_writhe_of_a_buckled_rod_make_its_link() {
         assert!(fine[1] * turn > 0.0 && fine[1].abs() > 0.02);
         for k in 0..3 {
             let order = ((coarse[k] - middle[k]) / (middle[k] - fine[k])).log2();
-            println!("quantity {k}: order {order:.2}");
             assert!((order - 2.0).abs() < 0.3, "order {order}");
         }
     }

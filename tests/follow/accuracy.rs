@@ -55,8 +55,6 @@ fn unchanged(sections: &str) -> Vec<(f64, [f64; 3])> {
 #[test]
 fn followed_motion_approaches_monomers_as_thresholds_fall() {
     let monomers = unchanged("[Ellipsoids(from_nm: 0.0, to_nm: 150.0)]");
-    let rod = unchanged("[Rod(from_nm: 0.0, to_nm: 150.0, segments: 25)]");
-    println!("rod: {:.3}", error(&rod, &monomers));
     for (above, bound) in BOUNDS {
         let scene = scene(&format!(
             "Following(length_nm: 150.0, least_ns: 2.0,
@@ -70,8 +68,6 @@ fn followed_motion_approaches_monomers_as_thresholds_fall() {
             (&one.stretch.assembly, records)
         });
         let found = error(&tips(records), &monomers);
-        let switches = run.switches().count();
-        println!("above {above} per nm: {found:.3}, {switches} switches");
         assert!(found < bound, "{above}: {found}");
     }
 }

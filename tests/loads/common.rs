@@ -1,17 +1,14 @@
 //! Cantilever scenes, and beam theory by integration along the arc.
 
-pub(crate) use crate::common::build;
 use crate::common::ran;
+pub(crate) use crate::common::{BEND, LENGTH, build, rod_scene};
 use crate::theory::bisect;
 use actin_mechanics::testing::{assert_is_balanced, assert_is_gradient, assert_is_stiffness};
 use actin_mechanics::{Xorshift, perturb};
 use actin_sim::{Assembly, Trajectory};
 
-/// Length (nm), bending and twisting rigidity (pN nm^2).
-pub(crate) const LENGTH: f64 = 160.0;
-pub(crate) const BEND: f64 = 3.9e4;
+/// Twisting rigidity (pN nm^2), and equal shear and stretch rigidity (pN).
 pub(crate) const TWIST: f64 = 1.3e4;
-/// Equal shear and stretch rigidity (pN), as explained in `tests/equilibria/common.rs`.
 pub(crate) const SHEAR: f64 = 1e6;
 /// Mass per length (ag/nm) of the default monomers.
 pub(crate) const DENSITY: f64 = 0.0697 / (71.2 / 26.0);
@@ -20,26 +17,9 @@ pub(crate) fn cantilever(segments: usize, shear: f64, loads: &str, rest: &str) -
     twisting(segments, (shear, TWIST), loads, rest)
 }
 
-pub(crate) fn twisting(
-    segments: usize,
-    (shear, twist): (f64, f64),
-    loads: &str,
-    rest: &str,
-) -> String {
-    format!(
-        "Scene(
-            filament: Filament(
-                sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
-                rod: RodModel(law: Constant, material: Rigidities(
-                    shear_pn: ({shear:?}, {shear:?}, {shear:?}),
-                    bend_pn_nm2: ({BEND:?}, {BEND:?}, {twist:?}),
-                )),
-            ),
-            clamps: [Clamp(end: Start)],
-            loads: [{loads}],
-            {rest}
-        )"
-    )
+pub(crate) fn twisting(segments: usize, rigidities: (f64, f64), loads: &str, rest: &str) -> String {
+    let rest = format!("loads: [{loads}], {rest}");
+    rod_scene(segments, rigidities, "Clamp(end: Start)", &rest)
 }
 
 pub(crate) fn run(text: &str) -> (Assembly, Trajectory) {

@@ -1,63 +1,9 @@
 //! Ends that are pinned, hinged by a spring, and moved at constant velocity.
 
 use super::common::{BEND, LENGTH, SHEAR, TWIST, build, cantilever, run};
-use crate::common::run_anyway;
 use crate::theory::{bisect, second_order_limit};
 use actin_mechanics::{Loads, State, Vector3, rotation};
 use actin_sim::{Assembly, End, Failure, Plan, RunError};
-use std::f64::consts::PI;
-
-fn column(segments: usize, start: &str, force: f64) -> String {
-    let task = "task: Equilibrium(leave_saddles: 0),";
-    let load = format!("EndForce(end: End, force_pn: (0.0, 0.0, {:?}))", -force);
-    cantilever(segments, SHEAR, &load, task).replace(
-        "clamps: [Clamp(end: Start)]",
-        &format!("clamps: [{start}, Clamp(end: End, hold: Pin, slides: AlongAxis)]"),
-    )
-}
-
-fn critical(segments: usize, start: &str, bounds: [f64; 2]) -> f64 {
-    let is_unstable = |force: f64| match run_anyway(&mut build(&column(segments, start, force))).1 {
-        Ok(_) => false,
-        Err(RunError::Failed(failed)) if matches!(failed.failure, Failure::Saddle(_)) => true,
-        Err(error) => panic!("{force}: {error}"),
-    };
-    // Much smaller than the smallest discretisation error, 1e-4.
-    bisect(is_unstable, bounds, 1e-7)
-}
-
-/// Euler: a column pinned at both ends buckles at `pi^2 B / L^2`.
-#[test]
-fn a_pinned_column_buckles() {
-    let exact = PI * PI * BEND / LENGTH.powi(2);
-    let values = [8, 16, 32].map(|n| {
-        critical(
-            n,
-            "Clamp(end: Start, hold: Pin)",
-            [0.8 * exact, 1.2 * exact],
-        )
-    });
-    let limit = second_order_limit("pinned column", values, exact, 0.1);
-    // Shear and compression, P/S = 1.5e-5 each.
-    assert!(limit.abs() < 1e-4, "{limit:e}");
-}
-
-/// Hinged at one end with `k = 2 B / L` and pinned at the other: `x / tan(x) = 1 + x^2 B / k L`,
-/// where `x^2 B / L^2` is the critical force.
-#[test]
-fn a_hinged_column_buckles() {
-    let share = 2.0;
-    let is_beyond = |x: f64| x / x.tan() < 1.0 + x * x / share;
-    let x = bisect(is_beyond, [PI + 1e-9, 4.493_409_457_909_064 - 1e-9], 1e-14);
-    let exact = x * x * BEND / LENGTH.powi(2);
-    let k = share * BEND / LENGTH;
-    let start = format!(
-        "Clamp(end: Start, hold: Pin, hinge: (bend_pn_nm_per_rad: {k:?}, twist_pn_nm_per_rad: 50.0))"
-    );
-    let values = [8, 16, 32].map(|n| critical(n, &start, [0.8 * exact, 1.2 * exact]));
-    let limit = second_order_limit("hinged column", values, exact, 0.1);
-    assert!(limit.abs() < 1e-4, "{limit:e}");
-}
 
 /// The compliance of the hinge adds to the compliance of the rod; the reaction is the spring's
 /// torque.
@@ -137,7 +83,6 @@ fn a_pinned_chain_hangs_as_a_catenary() {
     });
     // Stretch of 2e-4 at most and bending, B / w a^3 = 1e-6.
     let errors = sags.map(|sag| sag / exact - 1.0);
-    println!("catenary: sag {exact:.3} nm, errors {errors:?}");
     assert!(errors[2].abs() < 1e-3, "{errors:?}");
     assert!(errors[2].abs() < errors[0].abs(), "{errors:?}");
 }

@@ -39,7 +39,6 @@ fn cuts_change_nothing() {
         let [one, two, fine] = [ONE, TWO, &fine].map(|sections| run(&text(sections, law, load)).0);
         let tip = |assembly: &Assembly| assembly.tip_nm(assembly.system.state(), End::End);
         let [miss, refined] = [&two, &fine].map(|other| (tip(&one) - tip(other)).norm());
-        println!("{law}: {miss:.1e} nm, finer segments {refined:.1e} nm");
         let bound = if law == "Constant" {
             1e-8
         } else {
@@ -68,7 +67,6 @@ fn a_cut_keeps_the_time_step() {
         plan.estimate().unwrap().largest_frequency_rad_per_ns
     };
     let ratio = frequency(TWO) / frequency(ONE);
-    println!("largest frequency: {ratio:.4}");
     assert!((0.999..1.16).contains(&ratio), "{ratio}");
 }
 
@@ -99,7 +97,6 @@ fn a_softened_stretch_is_a_stepped_beam() {
         let turn = rotation::log(state.frames.orientation.get(last)).z;
         let s = assembly.frames[last].s_nm;
         let twisted = 0.5 * (s - (to - from) + (to - from) / SOFTER[1]) / TWIST;
-        println!("{} segments: twist {:.1e}", 16 << k, turn / twisted - 1.0);
         assert!((turn / twisted - 1.0).abs() < 1e-6, "{turn} {twisted}");
     }
     let limit = second_order_limit("softened stretch", tips, exact, 0.02);

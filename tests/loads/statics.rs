@@ -40,21 +40,6 @@ fn wall_torque(assembly: &mut Assembly) -> Vector3 {
         .torque_pn_nm
 }
 
-#[test]
-fn a_couple_turns_an_end_more_than_once() {
-    let (size, twist) = (300.0, 3e3);
-    let load = format!("Couple(end: End, couple_pn_nm: (0.0, 0.0, {size:?}))");
-    let (assembly, trajectory) = run(&twisting(16, (SHEAR, twist), &load, TASK));
-    let record = trajectory.records.last().unwrap();
-    let work = assembly.terms.iter().zip(&record.energies_pn_nm);
-    let work: f64 = work
-        .filter(|(term, _)| term.name == "load")
-        .map(|(_, e)| e)
-        .sum();
-    let expected = -size * size * LENGTH / twist;
-    assert!((work / expected - 1.0).abs() < 1e-9, "{work} {expected}");
-}
-
 /// An axial couple gives the twist `M s / C` at `s`, exactly on any mesh, up to one and a half
 /// turns. Beyond its place the rod is untwisted.
 #[test]
@@ -103,7 +88,6 @@ fn a_couple_per_length_twists() {
         };
         let exact = size * (to * to - from * from) / (2.0 * TWIST) - beyond;
         let turn = rotation::log(turn_at(&assembly, 155.0)).z;
-        println!("couple per length {from} to {to}: {turn} of {exact}");
         assert!(
             (turn - exact).abs() < slack + size * 12.5 / TWIST,
             "{turn} {exact}"
@@ -169,7 +153,6 @@ fn a_couple_bends_into_a_helix() {
         (tip(&assembly) - helix).norm()
     });
     let orders = [tips[0] / tips[1], tips[1] / tips[2]].map(f64::log2);
-    println!("helix: errors {tips:?} nm, orders {orders:?}");
     assert!(
         orders.iter().all(|order| (order - 2.0).abs() < 0.05),
         "{orders:?}"
@@ -210,10 +193,6 @@ fn a_uniform_force_bends() {
         let a = w / DENSITY;
         let weight = format!("Acceleration(acceleration_nm_per_ns2: ({a:?}, 0.0, 0.0))");
         let heavy = deflection(32, &weight);
-        println!(
-            "weight, {alpha}: {:.1e} from the uniform force",
-            heavy / values[1] - 1.0
-        );
         // Both solved to 1e-7 pN.
         assert!((heavy / values[1] - 1.0).abs() < 1e-6, "{heavy}");
     }
@@ -228,7 +207,6 @@ fn a_force_per_length_acts_on_its_interval() {
     for (segments, bound) in [(16, 4e-3), (64, 3e-4)] {
         let load = format!("ForcePerLength(from_nm: {a:?}, force_pn_per_nm: ({w:?}, 0.0, 0.0))");
         let error = tip(&solved(segments, &load)).x / exact - 1.0;
-        println!("force per length from {a} nm on {segments} segments: {error:.2e}");
         assert!(error.abs() < bound, "{segments}: {error:e}");
     }
 }
@@ -321,7 +299,6 @@ fn a_couple_acts_at_the_end_of_a_rod() {
                 let rod = format!("Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})");
                 let found = energy(&coupled(end, (&rod, "Constant"), couple));
                 let error = found / exact - 1.0;
-                println!("{end:?} {couple:?} {segments}: {found} {error:.1e}");
                 assert!(
                     error.abs() < 1e-9,
                     "{end:?} {couple:?} {segments}: {error:e}"
@@ -349,7 +326,6 @@ fn the_work_of_an_end_couple_is_independent_of_the_mesh() {
                 energy(&coupled(End::End, (&rod, law), couple))
             });
             let [first, second] = [(a - b) / c, (b - c) / c].map(f64::abs);
-            println!("{law} {couple:?}: {c}, changes {first:.1e} {second:.1e}");
             assert!(
                 4.0 * first < bound && 8.0 * second < bound,
                 "{law} {couple:?}"
@@ -371,15 +347,4 @@ fn an_end_couple_after_monomers_twists_half_a_segment() {
     let expected = size * half / TWIST;
     // Residual of 1e-10 pN nm, and rounding.
     assert!((turn / expected - 1.0).abs() < 1e-9, "{turn} {expected}");
-}
-
-/// Tolerance: a tenth of an order on 8 to 32 segments.
-#[test]
-fn a_force_and_a_couple_at_an_end_converge_with_order_two() {
-    let loads = "EndForce(end: End, force_pn: (0.1, 0.0, 0.0)),
-        Couple(end: End, couple_pn_nm: (0.0, 3.0, 5.0))";
-    let [a, b, c] = [8, 16, 32].map(|segments| energy(&solved(segments, loads)));
-    let order = ((a - b) / (b - c)).log2();
-    println!("order {order:.3}");
-    assert!((order - 2.0).abs() < 0.1, "{order}");
 }

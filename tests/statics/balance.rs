@@ -1,17 +1,18 @@
 //! Reactions of clamps, and sums of the energies of an equilibrium.
 
-use super::common::{Settled, free_bodies, settle};
+use super::common::{free_bodies, settle};
+use crate::common::ran;
 use actin_mechanics::{Loads, Vector3};
 use actin_rundir::RunDirectory;
-use actin_sim::End;
+use actin_sim::{End, Plan};
 use std::collections::BTreeMap;
 
 const FORCE: [f64; 3] = [3.0, -1.0, 4.0];
 const TOLERANCE: f64 = 1e-5;
 
-fn settled(sections: &str, clamped: &str, loaded: &str) -> Settled {
+fn scene(sections: &str, clamped: &str, loaded: &str, task: &str) -> String {
     let [x, y, z] = FORCE;
-    settle(&format!(
+    format!(
         "Scene(
             filament: Filament(
                 sections: [{sections}],
@@ -20,16 +21,9 @@ fn settled(sections: &str, clamped: &str, loaded: &str) -> Settled {
             ),
             clamps: [Clamp(end: {clamped})],
             loads: [EndForce(end: {loaded}, force_pn: ({x:?}, {y:?}, {z:?}))],
-            task: Dynamics(
-                duration_ns: 1000.0,
-                integrator: PositionVerlet,
-                step_safety: 0.8,
-                drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0),
-                stop: (force_pn: {TOLERANCE:?}, torque_pn_nm: {TOLERANCE:?}, kinetic_pn_nm: 1e-9),
-                record_every_ns: 2.0,
-            ),
+            task: {task},
         )"
-    ))
+    )
 }
 
 const MONOMERS_THEN_ROD: &str =
@@ -45,7 +39,8 @@ fn the_reaction_balances_the_load() {
         (MONOMERS_THEN_ROD, "End", End::Start),
         (ROD_THEN_MONOMERS, "End", End::Start),
     ] {
-        let settled = settled(sections, clamped, &format!("{loaded:?}"));
+        let task = format!("Equilibrium(force_pn: {TOLERANCE:?}, torque_pn_nm: {TOLERANCE:?})");
+        let settled = settle(&scene(sections, clamped, &format!("{loaded:?}"), &task));
         let (assembly, state) = (&settled.assembly, &settled.last().state);
         let mut loads = Loads::zeros(state);
         for interaction in assembly.system.interactions() {
@@ -81,20 +76,18 @@ fn rows(text: &str) -> Vec<BTreeMap<String, f64>> {
         .collect()
 }
 
-/// The energy of a dead load at rest is minus the force times the displacement.
+/// The energy of a dead load is minus the force times the displacement.
 #[test]
 fn the_columns_of_the_energies_add_up() {
-    let settled = settled(MONOMERS_THEN_ROD, "Start", "End");
-    let (assembly, trajectory) = (&settled.assembly, &settled.trajectory);
+    let task = "Dynamics(
+        duration_ns: 2.0, record_every_ns: 0.1,
+        drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0),
+    )";
+    let (assembly, trajectory, report) = ran(&scene(MONOMERS_THEN_ROD, "Start", "End", task));
     let folder = tempfile::tempdir().unwrap();
     let directory = RunDirectory::create(folder.path().join("run"), false).unwrap();
-    directory
-        .write(
-            &actin_sim::Plan::new(assembly).unwrap(),
-            trajectory,
-            &settled.report,
-        )
-        .unwrap();
+    let plan = Plan::new(&assembly).unwrap();
+    directory.write(&plan, &trajectory, &report).unwrap();
     let text = std::fs::read_to_string(directory.path().join("energies.csv")).unwrap();
     let rows = rows(&text);
     assert_eq!(rows.len(), trajectory.records.len());
@@ -113,7 +106,9 @@ fn the_columns_of_the_energies_add_up() {
         same(sum(&["potential", "kinetic"]), sum(&["total"]));
         same(sum(&["bonds"]), sum(&["section_0"]));
     }
-    let work = Vector3::from(FORCE).dot(&settled.tip_displacement_nm(End::End));
+    let tip = |state| assembly.tip_nm(state, End::End);
+    let last = &trajectory.records.last().unwrap().state;
+    let work = Vector3::from(FORCE).dot(&(tip(last) - tip(&assembly.rest)));
     let load = rows[rows.len() - 1]["load_pn_nm"];
     assert!((load + work).abs() < 1e-12 * work, "{load} and {work}");
 }

@@ -7,7 +7,6 @@ fn small_deflection(hold: &'static str, segments: usize) -> f64 {
     let rod = Rod {
         hold,
         force_pn: 0.02,
-        tolerance: 1e-8,
         ..Rod::actin(segments)
     };
     let (f, l) = (rod.force_pn, rod.length_nm);
@@ -33,18 +32,21 @@ fn a_held_frame_costs_nine_percent_where_a_wall_costs_a_fifth_of_one() {
     }
 }
 
+/// At rest after a damped motion: the printed balance has no potential.
 #[test]
 fn both_force_laws_bend_alike() {
+    let drag = "drag: (translational_per_ns: 0.34, rotational_per_ns: 0.34)";
+    let stop = "stop: (force_pn: 1e-6, torque_pn_nm: 1e-6, kinetic_pn_nm: 1e-10)";
+    let rest = "integrator: PositionVerlet, step_safety: 0.8, record_every_ns: 6.0";
+    let damped = format!("Dynamics(duration_ns: 1200.0, {rest}, {drag}, {stop})");
     let rod = Rod::actin(16);
-    let gradient = Rod {
-        force_pn: 2.0 * rod.bend_pn_nm2[0] / (rod.length_nm * rod.length_nm),
-        ..rod
-    };
+    let force_pn = 2.0 * rod.bend_pn_nm2[0] / (rod.length_nm * rod.length_nm);
+    let gradient = Rod { force_pn, ..rod };
     let printed = Rod {
         force_law: "PaperBalance",
         ..gradient.clone()
     };
-    let ratio = printed.deflection_nm() / gradient.deflection_nm();
+    let ratio = printed.deflection_after(&damped) / gradient.deflection_nm();
     println!("printed over gradient: {ratio}");
     assert!((ratio - 1.0).abs() < 1e-3, "{ratio}");
 }

@@ -96,18 +96,12 @@ fn measured(wave: Wave, segments: usize, m: usize) -> f64 {
 
 #[test]
 fn stretching_and_twisting_frequencies_agree_with_the_lattice() {
-    println!("wave, segments, mode: rad/ns, of the lattice, of the continuous rod");
     for wave in [Wave::Stretch, Wave::Twist] {
         for (segments, m) in [(16, 1), (16, 4), (32, 1), (32, 4)] {
             let h = LENGTH / segments as f64;
             let k = (m as f64 - 0.5) * PI / LENGTH;
             let lattice = 2.0 * wave.speed() / h * (0.5 * k * h).sin();
             let found = measured(wave, segments, m);
-            println!(
-                "{wave:?}, {segments}, {m}: {found:.6}, {:.1e}, {:.1e}",
-                found / lattice - 1.0,
-                found / (k * wave.speed()) - 1.0
-            );
             // Zeros interpolated in 1/200 of a period are accurate to 1e-6 of twenty periods.
             assert!((found / lattice - 1.0).abs() < 2e-6, "{found} {lattice}");
         }

@@ -112,29 +112,6 @@ mod tests {
         assert_eq!(few.frames.get(0), many.frames.get(0));
     }
 
-    #[test]
-    fn deviates_differ() {
-        let first = |seed, step, half| {
-            let noise = drawn(seed, (2, 2), step, half);
-            [&noise.points, &noise.frames]
-                .map(|v| [v.x[0], v.y[0], v.z[0], v.x[1]])
-                .concat()
-        };
-        let top = 1 << 63;
-        let mut all = [
-            first(0, 0, Half::Before),
-            first(0, 0, Half::After),
-            first(0, 1, Half::Before),
-            first(0, 1 << 53, Half::Before),
-            first(top, 0, Half::Before),
-        ]
-        .concat();
-        let count = all.len();
-        all.sort_by(f64::total_cmp);
-        all.dedup();
-        assert_eq!((all.len(), count), (40, 40));
-    }
-
     /// Moments up to the fourth, and correlations between components, halves, steps and neighbours,
     /// within 4.5 standard errors.
     #[test]

@@ -354,41 +354,6 @@ mod tests {
             .collect()
     }
 
-    #[test]
-    fn too_many_linkers_are_refused() {
-        let text = NETWORK.replace("reach_nm: 100.0, least_reach_nm: 5.0", "reach_nm: 1.0");
-        let refused = Scene::from_ron(&text)
-            .expect_err("too few pairs")
-            .to_string();
-        assert!(refused.contains("linker_sets[0].per_filament") && refused.contains("100 linkers"));
-    }
-
-    #[test]
-    fn mistakes_of_arrangements_are_refused() {
-        for (right, wrong, key) in [
-            ("count: 40", "count: 0", "arrangements[0].count"),
-            (
-                "1500.0, 1500.0, 1500.0",
-                "1500.0, -1.0, 1500.0",
-                "arrangements[0].box_nm",
-            ),
-            (
-                "to_nm: 1000.0",
-                "to_nm: -1.0",
-                "arrangements[0].filament.sections[0]",
-            ),
-            (
-                "seed: 3",
-                "seed: 3, lengths_nm: (2.0, 1.0)",
-                "arrangements[0].lengths_nm",
-            ),
-        ] {
-            let text = NETWORK.replace(right, wrong);
-            let refused = Scene::from_ron(&text).expect_err(wrong).to_string();
-            assert!(refused.contains(key), "{refused}");
-        }
-    }
-
     /// Smallest distance of 60 filaments of 300 nm and their images in a box of 300 nm.
     fn closest_of(text: &str, images: std::ops::RangeInclusive<i32>) -> f64 {
         let scene = Scene::from_ron(text).expect("the scene is valid");

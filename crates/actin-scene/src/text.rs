@@ -448,101 +448,51 @@ mod tests {
     task: Equilibrium(),
 )";
 
-    const LAW: &str = "filament: Filament(rod: (law: Fitted), ";
-
-    type Same = (
-        &'static str,
-        &'static [&'static str],
-        (&'static str, &'static str),
-    );
-
-    /// A text, overrides, and the replacement in a text of the same meaning.
-    const SAME: &[Same] = &[
-        (
-            SCENE,
-            &["filament.sections[0].to_nm=40.0"],
-            ("30.0", "40.0"),
-        ),
-        (
-            SCENE,
-            &["filament.rod.law=Fitted"],
-            ("filament: Filament(", LAW),
-        ),
-        (
-            SCENE,
-            &["filaments[0].rod.law=Fitted"],
-            ("filament: Filament(", LAW),
-        ),
-        (
-            LISTED,
-            &["filament.rod.law=Fitted"],
-            ("filament: Filament(", LAW),
-        ),
-        (
-            SCENE,
-            &["task.force_pn=1e-8"],
-            ("Equilibrium()", "Equilibrium(force_pn: 1e-8)"),
-        ),
-        (SCENE, &["loads[0].force_pn[1]=7.0"], ("2.0", "7.0")),
-        (
-            SCENE,
-            &["loads[1]=EndForce(end: End, force_pn: (0.0, 0.0, 1.0))"],
-            (
-                "3.0)),]",
-                "3.0)), EndForce(end: End, force_pn: (0.0, 0.0, 1.0))]",
-            ),
-        ),
-        (
-            SCENE,
-            &["path[0].set[0]=Shift(end: Start, shift_nm: (1.0, 0.0, 0.0))"],
-            (
-                "task:",
-                "path: [Stage(set: [Shift(end: Start, shift_nm: (1.0, 0.0, 0.0))])], task:",
-            ),
-        ),
-        (
-            SCENE,
-            &["filament.rod.law=Constant", "filament.rod.law=Fitted"],
-            ("filament: Filament(", LAW),
-        ),
-    ];
+    /// Overrides, separated by semicolons, and the replacement in [`SCENE`] of the same meaning.
+    const SAME: &str = "\
+        filament.sections[0].to_nm=40.0 => 30.0 => 40.0
+        filament.rod.law=Fitted => Filament( => Filament(rod: (law: Fitted),
+        filaments[0].rod.law=Fitted => Filament( => Filament(rod: (law: Fitted),
+        filament.rod.law=Constant; filament.rod.law=Fitted => Filament( => Filament(rod: (law: Fitted),
+        task.force_pn=1e-8 => Equilibrium() => Equilibrium(force_pn: 1e-8)
+        loads[0].force_pn[1]=7.0 => 2.0 => 7.0
+        loads[1]=EndForce(end: End, force_pn: (0.0, 0.0, 1.0)) => 3.0)), => 3.0)), EndForce(end: End, force_pn: (0.0, 0.0, 1.0))
+        path[0].set[0]=Shift(end: Start, shift_nm: (1.0, 0.0, 0.0)) => task: => path: [Stage(set: [Shift(end: Start, shift_nm: (1.0, 0.0, 0.0))])], task:";
 
     #[test]
     fn overrides_are_equivalent_to_changes_of_the_text() {
-        for &(text, overrides, (from, to)) in SAME {
-            let expected = Scene::from_ron(&SCENE.replacen(from, to, 1)).unwrap();
-            assert_eq!(with(text, overrides).unwrap(), expected, "{overrides:?}");
+        for line in SAME.lines() {
+            let parts: Vec<&str> = line.trim().split(" => ").collect();
+            let overrides: Vec<&str> = parts[0].split("; ").collect();
+            let expected = Scene::from_ron(&SCENE.replacen(parts[1], parts[2], 1)).unwrap();
+            assert_eq!(with(SCENE, &overrides).unwrap(), expected, "{line}");
         }
+        let law = SCENE.replacen("Filament(", "Filament(rod: (law: Fitted), ", 1);
+        let listed = with(LISTED, &["filament.rod.law=Fitted"]);
+        assert_eq!(listed, Scene::from_ron(&law));
     }
 
     /// Errors of overrides name the override; errors of the text have a position.
     #[test]
     fn errors_name_the_override_or_the_place() {
         let error = |text: &str, one: &str| with(text, &[one]).unwrap_err().to_string();
-        for (one, message) in [
+        #[rustfmt::skip]
+        let cases = [
             ("filament.rod.lav=Fitted", "unknown key `lav` in RodModel"),
             ("filament.rod.law=Fittet", "unknown RodLaw Fittet"),
             (
                 "filament.sections=Adaptive(length_nm: 60.0, want: Tip(error: 0.1, eror: 0.1))",
                 "unknown key `eror` in Tip",
             ),
-            (
-                "task.error_of=Curvature(at_nm: 5.0, at: 6.0)",
-                "unknown key `at` in Curvature",
-            ),
+            ("task.error_of=Curvature(at_nm: 5.0, at: 6.0)", "unknown key `at` in Curvature"),
             ("task.force_pn=zero", "task.force_pn: "),
-            (
-                "loads[0].force_pn[1]=inf",
-                "loads[0].force_pn = [1.0, inf, 3.0]: must be finite",
-            ),
+            ("loads[0].force_pn[1]=inf", "loads[0].force_pn = [1.0, inf, 3.0]: must be finite"),
             ("loads[4].force_pn[1]=1.0", "loads has 1 elements"),
             ("loads.force_pn=1.0", "loads is a list"),
-            (
-                "clamps[0].end.x=1",
-                "clamps[0].end: Start has no keys: write it without brackets",
-            ),
+            ("clamps[0].end.x=1", "clamps[0].end: Start has no keys: write it without brackets"),
             ("task[1]=3", "task is not a list"),
-        ] {
+        ];
+        for (one, message) in cases {
             let found = error(SCENE, one);
             assert!(found.starts_with(&format!("{one}: {message}")), "{found}");
         }

@@ -391,7 +391,7 @@ mod tests {
     /// Rounding of places of 100 nm times the stiffness of an interface, 3e3 pN/nm.
     #[test]
     fn sections_of_different_turn_are_sampled_from_rest() {
-        let residual = of(TURNED, "Cubature", |strand| {
+        let residual = of(TURNED, "Independent", |strand| {
             let mut alone = strand.alone(&strand.pieces(1..3)).unwrap();
             let loads = alone.system.loads().clone();
             loads.residual(alone.system.state())

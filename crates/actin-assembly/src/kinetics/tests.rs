@@ -70,7 +70,6 @@ fn lifetimes_under_force_agree_with_the_rates() {
         ),
     ] {
         let (mean, expected, error) = lifetime(kinetics, rate);
-        println!("{kinetics}: {mean:.2} ns, {expected:.2} +- {error:.2} expected");
         assert!((mean - expected).abs() < 4.5 * error, "{mean}, {expected}");
     }
 }
@@ -100,7 +99,6 @@ fn bound_fraction_follows_detailed_balance() {
     let c = 1.0 - on - off;
     let seen = count as f64 * steps as f64 * (1.0 - c) / (1.0 + c);
     let error = (expected * (1.0 - expected) / seen).sqrt();
-    println!("{share:.4} hold, {expected:.4} +- {error:.4} expected");
     assert!(
         (share - expected).abs() < 4.5 * error,
         "{share}, {expected}"
@@ -152,9 +150,6 @@ fn sites_step_at_the_rate_and_stall() {
             let mean = stepped(step_nm, from_nm, force);
             let p = probability(rate);
             let (expected, error) = (300.0 * p, (300.0 * p * (1.0 - p) / 400.0).sqrt());
-            println!(
-                "{step_nm} nm against {force} pN: {mean:.3} steps, {expected:.3} +- {error:.3} expected"
-            );
             assert!((mean - expected).abs() < 4.5 * error, "{mean}, {expected}");
         }
         assert!(stepped(step_nm, from_nm, 5.001) <= 0.0);
@@ -271,7 +266,6 @@ fn crosslinkers_bind_in_detailed_balance() {
             counts[hands.filter(|hand| hand.is_bound(&state)).count()] += 1.0;
         }
         let ratio = counts[2] / counts[1];
-        println!("{breaks}: {ratio:.4}, {expected:.4} expected");
         // The states decorrelate within about 30 steps, and events are up to half a step late.
         assert!((ratio / expected - 1.0).abs() < 0.1, "{ratio}, {expected}");
     }

@@ -208,20 +208,14 @@ mod tests {
 
     #[test]
     fn other_temperatures_are_noted() {
-        for (law, kelvin, expected) in [
-            (
-                "HomogenisedAt298K",
-                "310.0",
-                Some("about 4 %: write law: Homogenised"),
-            ),
+        #[rustfmt::skip]
+        let cases = [
+            ("HomogenisedAt298K", "310.0", Some("about 4 %: write law: Homogenised")),
             ("HomogenisedAt298K", "300.0", None),
             ("Homogenised", "310.0", None),
-            (
-                "Homogenised",
-                "250.0",
-                Some("about 9 %: resolve monomers, or set 273 to 323 K"),
-            ),
-        ] {
+            ("Homogenised", "250.0", Some("about 9 %: resolve monomers, or set 273 to 323 K")),
+        ];
+        for (law, kelvin, expected) in cases {
             let all = notes(
                 &rod(&format!("law: {law}"), 0.0),
                 &BATH.replace("298.0", kelvin),

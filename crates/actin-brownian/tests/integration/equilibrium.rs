@@ -40,13 +40,8 @@ fn energies_per_strain(kt: f64, ratio: f64, steps: u64) -> [f64; 2] {
 /// thousand times the fastest relaxation.
 #[test]
 fn strains_have_the_equipartition_energy_at_long_steps() {
-    for (kt, ratio, steps) in [
-        (0.0411, 100.0, 100_000),
-        (4.11, 100.0, 100_000),
-        (4.11, 3e3, 30_000),
-    ] {
+    for (kt, ratio, steps) in [(0.0411, 100.0, 100_000), (4.11, 3e3, 30_000)] {
         let shares = energies_per_strain(kt, ratio, steps);
-        println!("kT = {kt}, {ratio}: {shares:?}");
         for share in shares {
             assert!((share / 0.5 - 1.0).abs() < 0.01, "kT = {kt}: {shares:?}");
         }
@@ -74,8 +69,6 @@ fn rods_spin_by_more_than_half_a_turn_in_a_step() {
     let share = energy / (steps as f64 * 0.5 * kt * (6 * SEGMENTS - 3) as f64);
     let expected = (-kt * h / (FRICTION[2] * length)).exp();
     let cosine = cosine / steps as f64;
-    let iterations = stepper.iterations();
-    println!("{share}, cosine {cosine}, {expected} expected, {iterations} iterations");
     // Standard errors are 0.4 % and 0.01; twist within the rod adds 0.003 to the exponent.
     assert!((share - 1.0).abs() < 0.02, "{share}");
     assert!((cosine - expected).abs() < 0.05, "{cosine}");
@@ -102,7 +95,6 @@ fn steps_that_do_not_converge_are_halved() {
         "no step was halved"
     );
     let share = energy / (steps as f64 * 1.5 * kt * 15.0);
-    println!("{} iterations, {share}", stepper.iterations());
     assert!((0.8..1.2).contains(&share), "{share}");
 }
 
@@ -130,7 +122,7 @@ fn a_rod_in_a_field_has_the_distribution_of_langevin() {
     let mut system = System::new(state, vec![Box::new(law), Box::new(load)]);
     let mut stepper = Brownian::new(&system, layout, friction, (kt, 9)).unwrap();
     // The rotational relaxation time is about zeta L^3/(24 kT) = 230 ns.
-    let (h, steps) = (2.0, 2_000_000);
+    let (h, steps) = (2.0, 600_000);
     let (mut sum, mut square) = (0.0, 0.0);
     advance(&mut system, &mut stepper, (0, steps), h, |system| {
         let q = system.state().frames.orientation.get(0);
@@ -142,7 +134,7 @@ fn a_rod_in_a_field_has_the_distribution_of_langevin() {
     let langevin = 1.0 / f64::tanh(a) - 1.0 / a;
     let of_square = 1.0 - 2.0 * langevin / a;
     println!("{mean} against {langevin}, squares {square} against {of_square}");
-    // 4e6 ns give about 8e3 independent samples, with standard errors of 0.006 and 0.003.
-    assert!((mean - langevin).abs() < 0.018);
-    assert!((square - of_square).abs() < 0.010);
+    // 1.2e6 ns give about 2400 independent samples, with standard errors of 0.011 and 0.0055.
+    assert!((mean - langevin).abs() < 3.0 * 0.011);
+    assert!((square - of_square).abs() < 3.0 * 0.0055);
 }

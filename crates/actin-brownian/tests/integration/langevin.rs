@@ -56,10 +56,10 @@ fn terminal_velocity_is_exact_at_any_friction() {
     }
 }
 
-/// Diffusion is `kT/Z`. Standard errors are 1 %.
+/// Diffusion is `kT/Z`.
 #[test]
 fn diffusion_is_exact_at_any_friction() {
-    const SAMPLES: u64 = 10_000;
+    const SAMPLES: u64 = 3000;
     let kt = 4.11;
     for (factor, lag) in [(1.0, 500), (1e3, 10)] {
         let (mut system, _) = pulled(1, Vector3::zeros(), factor);
@@ -94,8 +94,12 @@ fn diffusion_is_exact_at_any_friction() {
             across * FRICTION[1] / expected,
         ];
         println!("{factor}: {ratios:?}");
-        // In water velocities decay in 1/60 and 1/110 ns, and the lag is 1 ns.
-        assert!(ratios.iter().all(|ratio| (ratio - 1.0).abs() < 0.04));
+        // Three standard errors of squares in one and two directions. In water velocities decay in
+        // 1/60 and 1/110 ns, and the lag is 1 ns.
+        for (ratio, directions) in ratios.into_iter().zip([1.0, 2.0]) {
+            let error = (2.0 / (directions * SAMPLES as f64)).sqrt();
+            assert!((ratio - 1.0).abs() < 3.0 * error, "{factor}: {ratios:?}");
+        }
     }
 }
 
@@ -103,31 +107,28 @@ fn diffusion_is_exact_at_any_friction() {
 #[test]
 fn strains_have_their_energy_at_any_stable_step() {
     const SEGMENTS: usize = 4;
-    let kt = 0.0411;
-    {
-        let share = 0.9;
-        let (mut system, _, rod) = free_rod(SEGMENTS, 40.0, (kt, 5), |_, _| Vec::new());
-        let layout = layout_of(system.state(), &rod);
-        let mut steps = Langevin::new(&system, layout, friction_of(&rod), (kt, 7)).unwrap();
-        let h = step_of(&system, share);
-        let (warm, number) = (200_000, 2_000_000);
-        let mut sums = [0.0; 2];
-        let mut energies = [0.0; 2 * SEGMENTS - 1];
-        for k in 0..warm + number {
-            steps.step(&mut system, k, h).unwrap();
-            if k >= warm && k % 4 == 0 {
-                system.interactions()[0].write_energies(system.state(), &mut energies);
-                let (shear, bending) = energies.split_at(SEGMENTS);
-                sums[0] += shear.iter().sum::<f64>() / (3 * SEGMENTS) as f64;
-                sums[1] += bending.iter().sum::<f64>() / (3 * (SEGMENTS - 1)) as f64;
-            }
+    let (kt, share) = (0.0411, 0.9);
+    let (mut system, _, rod) = free_rod(SEGMENTS, 40.0, (kt, 5), |_, _| Vec::new());
+    let layout = layout_of(system.state(), &rod);
+    let mut steps = Langevin::new(&system, layout, friction_of(&rod), (kt, 7)).unwrap();
+    let h = step_of(&system, share);
+    let (warm, number) = (50_000, 600_000);
+    let mut sums = [0.0; 2];
+    let mut energies = [0.0; 2 * SEGMENTS - 1];
+    for k in 0..warm + number {
+        steps.step(&mut system, k, h).unwrap();
+        if k >= warm && k % 4 == 0 {
+            system.interactions()[0].write_energies(system.state(), &mut energies);
+            let (shear, bending) = energies.split_at(SEGMENTS);
+            sums[0] += shear.iter().sum::<f64>() / (3 * SEGMENTS) as f64;
+            sums[1] += bending.iter().sum::<f64>() / (3 * (SEGMENTS - 1)) as f64;
         }
-        let shares = sums.map(|sum| sum / (kt * (number / 4) as f64));
-        println!("{share}: {shares:?}");
-        // Bending relaxes in about a thousand steps; the standard error is 1 %.
-        assert!((shares[0] / 0.5 - 1.0).abs() < 0.01, "{shares:?}");
-        assert!((shares[1] / 0.5 - 1.0).abs() < 0.03, "{shares:?}");
     }
+    let shares = sums.map(|sum| sum / (kt * (number / 4) as f64));
+    println!("{share}: {shares:?}");
+    // Bending relaxes in about a thousand steps: standard errors of 0.6 and 1.8 %.
+    assert!((shares[0] / 0.5 - 1.0).abs() < 3.0 * 0.006, "{shares:?}");
+    assert!((shares[1] / 0.5 - 1.0).abs() < 3.0 * 0.018, "{shares:?}");
 }
 
 /// The relaxation of a bent rod with and without inertia agrees within 1 %.

@@ -57,25 +57,6 @@ fn bending_energy_of_a_joint_is_exact() {
     assert!((found[0].0 - 1.0).abs() < 0.03, "{found:?}");
 }
 
-#[test]
-#[ignore = "takes minutes"]
-fn long_waves() {
-    for (segments, segment, h) in [
-        (12, 40.0, 100.0),
-        (12, 40.0, 300.0),
-        (12, 40.0, 1000.0),
-        (25, 40.0, 300.0),
-        (25, 40.0, 1389.0),
-        (12, 100.0, 4000.0),
-    ] {
-        let found = warmth((segments, segment), h, 400_000, &[1, 5, 10]);
-        println!("{segments} segments of {segment} nm, {h} ns: {found:.4?} over 1, 5, 10 segments");
-        for (warmth, error) in found {
-            assert!((warmth - 1.0).abs() < 0.03 + 3.0 * error, "{warmth}");
-        }
-    }
-}
-
 fn mean_and_error(values: &[f64]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;

@@ -56,7 +56,6 @@ fn a_rod_diffuses_with_its_friction() {
         let ratios: Vec<f64> = squares
             .map(|(square, z)| square / (2.0 * kt * LAG as f64 / z))
             .collect();
-        println!("{segments}: {ratios:?}");
         // Bending and twist of six segments add to the rotations.
         let compared = if segments == 1 { 4 } else { 2 };
         for ratio in &ratios[..compared] {
@@ -107,7 +106,6 @@ fn bending_relaxes_as_that_of_slender_rods() {
         for root in hold.roots() {
             let near = |rate: &&f64| (*rate / theory(root) - 1.0).abs() < 0.01;
             let found: Vec<&f64> = rates.iter().filter(near).collect();
-            println!("{hold:?}, {root}: {:?} against {}", found, theory(root));
             assert_eq!(found.len(), 2, "{root}: {rates:?}");
         }
     }
@@ -171,7 +169,6 @@ fn rods_follow_a_flow() {
         let cot = |axis: Vector3| axis.z / axis.x;
         let grown = cot(after.1) - cot(before.1);
         let expected = flow.gradient[(2, 0)] * time;
-        println!("{flow:?}: {grown}, {expected}");
         assert!((grown - expected).abs() < 1e-3, "{grown}, {expected}");
     }
 }

@@ -13,7 +13,6 @@ fn a_result_outside_the_model_is_a_failure() {
         )",
     );
     let message = place.fail(3, &["run", "scene.ron", "--out", "a"]);
-    println!("{message}");
     assert_has(
         &message,
         &[
@@ -79,7 +78,6 @@ fn an_end_on_a_saddle_is_a_failure() {
     for task in [damped(""), "Equilibrium(leave_saddles: 0)".into()] {
         let place = straight("", &task);
         let said = place.fail(3, &["run", "scene.ron", "--out", "a"]);
-        println!("{said}");
         assert!(said.starts_with("error: scene.ron:7:"), "{said}");
         assert_has(&said, &["task.leave_saddles = 0: the run ends on a saddle"]);
         assert!(said.trim_end().ends_with("all results are in a"), "{said}");
@@ -102,7 +100,6 @@ fn a_motion_at_rest_reports_its_stability() {
         let place = straight(filament, &damped(keys));
         let output = place.run("a");
         let last = output.lines().last().unwrap();
-        println!("{output}");
         assert!(
             last.starts_with("at rest, stable") && last.ends_with("; written to a"),
             "{last}"

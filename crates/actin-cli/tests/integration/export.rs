@@ -17,7 +17,7 @@ const SCENE: &str = "Scene(
         Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 20.0), Rod(from_nm: 20.0, to_nm: 50.0)]),
         Filament(
             sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0)],
-            monomers: Monomers(semi_axes_nm: (2.0, 2.5, 2.5)),
+            monomers: Monomers(anchors: Independent, semi_axes_nm: (2.0, 2.5, 2.5)),
             at_nm: (12.0, 0.0, 0.0),
         ),
     ],

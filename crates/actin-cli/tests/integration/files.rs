@@ -6,7 +6,6 @@ use crate::common::{
     stderr,
 };
 use std::fs;
-use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::Command;
 
@@ -101,41 +100,6 @@ fn refusal(place: &Workplace, arguments: &str, folders: &[&str]) -> String {
 }
 
 #[test]
-fn an_earlier_run_is_replaced() {
-    let place = Workplace::with(&short_motion());
-    place.run("a");
-    place.write("a/notes.txt", "mine");
-    let message = refusal(&place, "scene.ron --out a", &["a", "a/vtk"]);
-    assert_has(&message, &["a exists and is not empty"]);
-    place.write("scene.ron", EQUILIBRIUM);
-    place.succeed(&["run", "scene.ron", "--out", "a", "--overwrite"]);
-    place.run("b");
-    assert_eq!(fs::read(place.path("a/notes.txt")).unwrap(), b"mine");
-    fs::remove_file(place.path("a/notes.txt")).unwrap();
-    assert_same_files(&place.path("b"), &place.path("a"));
-}
-
-#[test]
-fn a_scene_is_not_overwritten() {
-    let place = Workplace::with(EQUILIBRIUM);
-    place.run("a");
-    symlink("a/scene.ron", place.path("link.ron")).unwrap();
-    for scene in ["a/scene.ron", "./a/../a/scene.ron", "link.ron"] {
-        let message = refusal(
-            &place,
-            &format!("{scene} --out a --overwrite"),
-            &["a", "a/vtk"],
-        );
-        assert_has(&message, &["lies in a, which --overwrite would replace"]);
-    }
-    // A folder that contains nothing but a scene of the user.
-    fs::create_dir(place.path("b")).unwrap();
-    place.write("b/scene.ron", EQUILIBRIUM);
-    let message = refusal(&place, "scene.ron --out b --overwrite", &["b"]);
-    assert_has(&message, &["b is not empty and has no actin-run.json"]);
-}
-
-#[test]
 fn a_read_only_directory_stays() {
     let place = Workplace::with(EQUILIBRIUM);
     place.run("a");
@@ -193,7 +157,7 @@ fn names(folder: &Path) -> Vec<String> {
     paths.map(|path| path.display().to_string()).collect()
 }
 
-/// Runs under every file size limit, in steps of 512 bytes: the program is never killed by SIGXFSZ, leaves no partial
+/// Runs under every file size limit, in steps of 1 KiB: the program is never killed by SIGXFSZ, leaves no partial
 /// files, and its results are available once the limit is removed.
 #[test]
 fn a_limit_on_the_size_of_files_loses_nothing() {
@@ -202,14 +166,13 @@ fn a_limit_on_the_size_of_files_loses_nothing() {
         let place = Workplace::with(scene);
         place.run("whole");
         let mut codes = Vec::new();
-        for limit in (0..40).chain([60, 100, 1000, 4000]) {
+        for limit in (0..40).step_by(2).chain([60, 100, 1000, 4000]) {
             let _ = fs::remove_dir_all(place.path("out"));
             let limited = format!("ulimit -f {limit}; actin run scene.ron --out out/a");
             let (code, is_kept) = assert_nothing_is_lost(&place, &limited, String::new);
             codes.push(code);
             kept[usize::from(is_kept)] += usize::from(code == 74);
         }
-        println!("{codes:?}");
         assert_eq!((codes[0], codes.last()), (2, Some(&0)));
     }
     println!("results that could not be written: {kept:?} without and with a checkpoint");
@@ -237,7 +200,6 @@ fn a_full_disk_loses_nothing() {
             drop(disk);
         }
     }
-    println!("{codes:?}");
     assert!(codes.contains(&(74, true)) && codes.contains(&(0, false)));
 }
 
@@ -252,7 +214,7 @@ impl Drop for Mounted<'_> {
 
 #[test]
 fn a_run_killed_while_it_writes_results_loses_nothing() {
-    let place = Workplace::with(&MOTION.replace("duration_ns: 150.0", "duration_ns: 60.0"));
+    let place = Workplace::with(MOTION);
     place.run("whole");
     for name in [
         "a/energies.csv.part",
@@ -271,8 +233,7 @@ fn a_run_killed_while_it_writes_results_loses_nothing() {
         );
         let summary = place.path("a/summary.json").exists();
         assert!(place.path("a/checkpoint.bin").exists() || summary, "{name}");
-        let output = place.resume("a");
-        println!("{name}: {output}");
+        place.resume("a");
         let _ = fs::remove_file(place.path("a/records.bin"));
         place.write("a/.actin-run.lock", "");
         assert_same_files(&place.path("whole"), &place.path("a"));

@@ -1,27 +1,17 @@
 //! The built program: arguments, exit codes, output streams and files.
 
-use crate::common::{Workplace, assert_has, code, stderr, stdout};
+use crate::common::{Workplace, assert_has, code, pushed, stderr, stdout};
 use actin_sim::Scene;
 use std::fs;
 
-/// A short rod, monomers and a junction under a force, for about a thousand steps.
-const TINY: &str = "Scene(
-    title: \"tiny\",
-    filament: Filament(
-        sections: [
-            Ellipsoids(from_nm: 0.0, to_nm: 10.0),
-            Rod(from_nm: 10.0, to_nm: 30.0),
-        ],
-        monomers: Monomers(anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8),
-    ),
-    clamps: [Clamp(end: Start)],
-    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
-    task: Dynamics(duration_ns: 1.0, record_every_ns: 0.25),
-)";
+/// Motion of 1 ns, about a thousand steps, with five records.
+fn tiny() -> String {
+    pushed(1.0).replace("record_every_ns: 1.0", "record_every_ns: 0.25")
+}
 
 #[test]
 fn a_scene_runs_into_its_directory() {
-    let place = Workplace::with(TINY);
+    let place = Workplace::with(&tiny());
     let output = place.actin(&["run", "scene.ron", "--out", "results/a"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert_eq!(stderr(&output), "");
@@ -37,14 +27,14 @@ fn a_scene_runs_into_its_directory() {
 
 #[test]
 fn results_have_a_place_by_default() {
-    let place = Workplace::with(TINY);
+    let place = Workplace::with(&tiny());
     place.succeed(&["run", "scene.ron"]);
     assert!(place.path("runs/scene/summary.json").is_file());
 }
 
 #[test]
 fn invalid_scenes_and_arguments_are_bad_input() {
-    let place = Workplace::with(TINY);
+    let place = Workplace::with(&tiny());
     let missing = place.fail(2, &["run", "absent.ron"]);
     assert!(missing.starts_with("error: absent.ron: "));
     place.write("binary.ron", b"Scene(\n  \xe9");
@@ -57,9 +47,8 @@ fn invalid_scenes_and_arguments_are_bad_input() {
 #[test]
 fn an_explosion_is_reported_and_valid_records_are_kept() {
     let unstable = "duration_ns: 100.0, time_step_ns: 0.0105, allow_unstable_step: true";
-    let place = Workplace::with(&TINY.replace("duration_ns: 1.0", unstable));
+    let place = Workplace::with(&tiny().replace("duration_ns: 1.0", unstable));
     let message = place.fail(3, &["run", "scene.ron", "--out", "a"]);
-    println!("{message}");
     assert_has(
         &message,
         &[
@@ -92,7 +81,7 @@ fn an_explosion_is_reported_and_valid_records_are_kept() {
 #[test]
 fn a_slow_explosion_is_caught() {
     let unstable = "duration_ns: 1000.0, time_step_ns: 0.00602, allow_unstable_step: true";
-    let place = Workplace::with(&TINY.replace("duration_ns: 1.0", unstable));
+    let place = Workplace::with(&tiny().replace("duration_ns: 1.0", unstable));
     let output = place.fail(3, &["run", "scene.ron", "--out", "a"]);
     assert_has(&output, &["energy has reached"]);
     let energies = place.read("a/energies.csv");
@@ -106,11 +95,10 @@ fn a_slow_explosion_is_caught() {
 
 #[test]
 fn check_prints_the_scene() {
-    let place = Workplace::with(TINY);
+    let place = Workplace::with(&tiny());
     let printed = place.succeed(&["check", "scene.ron"]);
-    println!("{printed}");
     let scene = Scene::from_ron(&printed).unwrap();
-    let written = Scene::from_ron(TINY).unwrap();
+    let written = Scene::from_ron(&tiny()).unwrap();
     assert_eq!(scene.filament.monomers, written.filament.monomers);
     assert_eq!(
         (&scene.clamps, &scene.loads),
@@ -229,7 +217,6 @@ fn a_law_in_a_bath_is_noted_and_its_fluctuations_are_summed_up() {
     assert_eq!(checked.matches(&format!("// {note}")).count(), 1);
     assert!(Scene::from_ron(&checked).is_ok());
     let printed = place.run("a");
-    println!("{printed}");
     assert_eq!(printed.matches(note).count(), 1);
     for quantity in ["twist", "curvature"] {
         let line = format!("{quantity} fluctuates beyond the data of the rod law in ");

@@ -1,132 +1,36 @@
 //! The studies of the book: shortened scenes and sweeps run, and scripts plot the results.
 
 use crate::common::{Workplace, code, python, stderr, stdout};
+use serde_json::Value;
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// A study of `studies.json`: shorter text of its scene and sweep, least number of rows of its table, and settings for a
+/// short run of its scene.
 struct Study {
-    name: &'static str,
-    shorter: &'static [(&'static str, &'static str)],
+    name: String,
+    shorter: Vec<[String; 2]>,
     points: usize,
-    set: &'static [&'static str],
+    set: Vec<String>,
 }
 
-const STUDIES: [Study; 8] = [
-    Study {
-        name: "flicker",
-        shorter: &[("duration_ms: 1000.0", "duration_ms: 8.0")],
-        points: 1,
-        set: &["task.duration_ms=0.5"],
-    },
-    Study {
-        name: "extension",
-        shorter: &[
-            (
-                "values: [0.2, 1.0, 4.0, 12.0, 30.0, 60.0]",
-                "values: [1.0, 12.0]",
-            ),
-            ("number: 4", "number: 2"),
-            ("duration_ns: 2000.0", "duration_ns: 3.0"),
-            ("record_every_ns: 8.0", "record_every_ns: 0.05"),
-            ("burn_in_ns: 100.0", "burn_in_ns: 0.5"),
-        ],
-        points: 4,
-        set: &[
-            "task.duration_ns=0.5",
-            "task.record_every_ns=0.1",
-            "burn_in_ns=0.1",
-        ],
-    },
-    Study {
-        name: "compression",
-        shorter: &[
-            ("duration_ns: 1500.0", "duration_ns: 3.0"),
-            ("record_every_ns: 15.0", "record_every_ns: 0.5"),
-            ("-150.0", "-0.3"),
-        ],
-        points: 6,
-        set: &[
-            "path[0].duration_ns=0.5",
-            "path[0].set[0].shift_nm[2]=-0.05",
-            "task.duration_ns=0.5",
-            "task.record_every_ns=0.1",
-        ],
-    },
-    Study {
-        name: "subcell",
-        shorter: &[
-            ("duration_ns: 300.0", "duration_ns: 0.5"),
-            ("duration_ns: 1500.0", "duration_ns: 1.0"),
-            ("duration_ns: 1800.0", "duration_ns: 1.5"),
-            ("record_every_ns: 15.0", "record_every_ns: 0.25"),
-            ("-150.0", "-0.1"),
-            ("[0.0, 360.0]", "[0.0, 1.0]"),
-        ],
-        points: 14,
-        set: &[
-            "path[0].duration_ns=0.1",
-            "path[1].duration_ns=0.4",
-            "path[1].set[0].shift_nm[2]=-0.05",
-            "task.duration_ns=0.5",
-            "task.record_every_ns=0.1",
-        ],
-    },
-    Study {
-        name: "softened",
-        shorter: &[
-            (
-                "(0.0, 10.0, 0.0), (0.0, 30.0, 0.0), (0.0, 60.0, 0.0),",
-                "(0.0, 10.0, 0.0), (0.0, 30.0, 0.0),",
-            ),
-            (
-                "(0.0, 0.0, 60.0), (0.0, 0.0, 90.0), (0.0, 0.0, 120.0), (0.0, 0.0, 180.0), (0.0, 0.0, 240.0),",
-                "(0.0, 0.0, 60.0),",
-            ),
-            (
-                "(0.0, 0.0, -60.0), (0.0, 0.0, -90.0), (0.0, 0.0, -120.0), (0.0, 0.0, -180.0), (0.0, 0.0, -240.0),",
-                "(0.0, 0.0, -60.0),",
-            ),
-        ],
-        points: 30,
-        set: &["path[0].set[0].turn_deg[1]=5.0"],
-    },
-    Study {
-        name: "sine",
-        shorter: &[
-            (
-                "Sine(period_ns: 5.0), Sine(period_ns: 7.0), Sine(period_ns: 9.0), Sine(period_ns: 11.0), Sine(period_ns: 13.0),",
-                "",
-            ),
-            (
-                "Sine(period_ns: 14.5), Sine(period_ns: 16.0), Sine(period_ns: 19.0), Sine(period_ns: 25.0), Sine(period_ns: 40.0),",
-                "Sine(period_ns: 14.5),",
-            ),
-            ("duration_ns: 400.0", "duration_ns: 4.0"),
-            ("record_every_ns: 4.0", "record_every_ns: 0.1"),
-        ],
-        points: 48,
-        set: &["task.duration_ns=1.0", "task.record_every_ns=0.1"],
-    },
-    Study {
-        name: "network-shear",
-        shorter: &[
-            ("count: 75", "count: 12"),
-            ("(700.0, 700.0, 700.0)", "(400.0, 400.0, 400.0)"),
-            ("values: [14.0, 11.0, 9.0]", "values: [9.0]"),
-            ("[[1, 1], [2, 2], [3, 3]]", "[[1, 1]]"),
-        ],
-        points: 3,
-        set: &["periodic.strain=0.001"],
-    },
-    Study {
-        name: "bundle",
-        shorter: &[],
-        points: 10,
-        set: &["loads[0].force_pn[0]=0.01"],
-    },
-];
+fn studies() -> Vec<Study> {
+    let all: Value = serde_json::from_str(include_str!("studies.json")).unwrap();
+    let text = |value: &Value| value.as_str().unwrap().to_owned();
+    let list = |value: &Value| value.as_array().unwrap().clone();
+    let study = |one: &Value| Study {
+        name: text(&one["name"]),
+        shorter: list(&one["shorter"])
+            .iter()
+            .map(|pair| [text(&pair[0]), text(&pair[1])])
+            .collect(),
+        points: usize::try_from(one["points"].as_u64().unwrap()).unwrap(),
+        set: list(&one["set"]).iter().map(text).collect(),
+    };
+    list(&all).iter().map(study).collect()
+}
 
 /// Scenes of measurements without a script, with changes for short runs.
 const MEASURED: [(&str, &[&str]); 9] = [
@@ -160,15 +64,18 @@ fn place(study: &Study) -> Workplace {
             .unwrap();
         }
     }
-    for (from, to) in study.shorter {
+    for [from, to] in &study.shorter {
         let files = [
             format!("{}.ron", study.name),
             format!("{}-sweep.ron", study.name),
         ];
         let texts = files.map(|file| (fs::read_to_string(place.path(&file)).unwrap(), file));
-        assert!(texts.iter().any(|(text, _)| text.contains(from)), "{from}");
+        assert!(
+            texts.iter().any(|(text, _)| text.contains(from.as_str())),
+            "{from}"
+        );
         for (text, file) in texts {
-            fs::write(place.path(&file), text.replace(from, to)).unwrap();
+            fs::write(place.path(&file), text.replace(from.as_str(), to)).unwrap();
         }
     }
     place
@@ -176,9 +83,10 @@ fn place(study: &Study) -> Workplace {
 
 #[test]
 fn scenes_run() {
-    for study in STUDIES {
+    for study in studies() {
         let place = place(&study);
-        run_short(&place, &format!("{}.ron", study.name), study.set);
+        let set: Vec<&str> = study.set.iter().map(String::as_str).collect();
+        run_short(&place, &format!("{}.ron", study.name), &set);
     }
     let place = Workplace::with("");
     for (name, set) in MEASURED {
@@ -200,8 +108,8 @@ fn run_short(place: &Workplace, file: &str, set: &[&str]) {
 fn sweeps_run_and_scripts_draw_them() {
     let what = "the scripts of the studies are";
     let python = python("numpy, matplotlib", "ACTIN_REQUIRE_MATPLOTLIB", what);
-    for study in STUDIES {
-        let (place, name) = (place(&study), study.name);
+    for study in studies() {
+        let (place, name) = (place(&study), study.name.as_str());
         let sweep = format!("{name}-sweep");
         place.succeed(&["sweep", &format!("{sweep}.ron")]);
         let table = fs::read_to_string(place.path(&format!("sweeps/{sweep}/table.csv"))).unwrap();

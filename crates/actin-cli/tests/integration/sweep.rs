@@ -174,72 +174,32 @@ fn a_sweep_of_which_every_run_fails_is_a_failure() {
 }
 
 /// Text to replace, its replacement, and the expected message.
-const MISTAKES: &[(&str, &str, &str)] = &[
-    (
-        "vary:",
-        "varies:",
-        "sweep.ron:4:5: unknown key `varies` in Sweep: expected one of title, scene, results",
-    ),
-    (
-        "[1].to_nm",
-        "[1].to_um",
-        "sweep.ron:6:60: vary[1].rows[0][0] = 30.0: filament.sections[1].to_um=30.0: unknown key",
-    ),
-    (
-        "sections[1]",
-        "sections[3]",
-        "sweep.ron:6:60: vary[1].rows[0][0] = 30.0: filament.sections[3].to_nm=30.0: filament.sections has 2",
-    ),
-    (
-        "-1.5, inf",
-        "-1.5, high",
-        "sweep.ron:5:63: vary[0].values[2] = high: loads[0].force_pn[2]=high: ",
-    ),
-    (
-        "[35.5]",
-        "[35.5, 1]",
-        "sweep.ron:6:67: vary[1].rows[1] = 2 values: a row must have a value for each of the 1 keys",
-    ),
-    (
-        "counts.segments",
-        "counts.segment",
-        "sweep.ron:9:63: results[2] = counts.segment: summary.json has no segment there: expected one of",
-    ),
-    (
-        "number: 3",
-        "number: 0",
-        "sweep.ron:8:22: samples.number = 0: must be at least 1",
-    ),
-    (
-        "of: [Bonds]",
-        "of: [Noise]",
-        "sweep.ron:8:5: samples: the scene has nothing random",
-    ),
-    (
-        "filament.sections[1].to_nm",
-        "loads[0].force_pn",
-        "sweep.ron:6:9: vary[1] = loads[0].force_pn: is varied already, as loads[0].force_pn[2]",
-    ),
-    (
-        "filament.rod.law",
-        "loads[0].force_pn[2]",
-        "sweep.ron:5:9: vary[0] = loads[0].force_pn[2]: would replace set[0], which sets loads[0].force_pn[2]",
-    ),
-    (
-        "filament.rod.law\", value: Fitted",
-        "filaments[0].sections[1].to_nm\", value: 30.0",
-        "sweep.ron:6:9: vary[1] = filament.sections[1].to_nm: would replace set[0], which sets filaments[0]",
-    ),
-    ("scene.ron", "absent.ron", "absent.ron: "),
-];
+const MISTAKES: &str = r#"
+vary: => varies: => sweep.ron:4:5: unknown key `varies` in Sweep: expected one of title, scene, results
+[1].to_nm => [1].to_um => sweep.ron:6:60: vary[1].rows[0][0] = 30.0: filament.sections[1].to_um=30.0: unknown key
+sections[1] => sections[3] => sweep.ron:6:60: vary[1].rows[0][0] = 30.0: filament.sections[3].to_nm=30.0: filament.sections has 2
+-1.5, inf => -1.5, high => sweep.ron:5:63: vary[0].values[2] = high: loads[0].force_pn[2]=high:
+[35.5] => [35.5, 1] => sweep.ron:6:67: vary[1].rows[1] = 2 values: a row must have a value for each of the 1 keys
+counts.segments => counts.segment => sweep.ron:9:63: results[2] = counts.segment: summary.json has no segment there: expected one of
+number: 3 => number: 0 => sweep.ron:8:22: samples.number = 0: must be at least 1
+of: [Bonds] => of: [Noise] => sweep.ron:8:5: samples: the scene has nothing random
+filament.sections[1].to_nm => loads[0].force_pn => sweep.ron:6:9: vary[1] = loads[0].force_pn: is varied already, as loads[0].force_pn[2]
+filament.rod.law => loads[0].force_pn[2] => sweep.ron:5:9: vary[0] = loads[0].force_pn[2]: would replace set[0], which sets loads[0].force_pn[2]
+filament.rod.law", value: Fitted => filaments[0].sections[1].to_nm", value: 30.0 => sweep.ron:6:9: vary[1] = filament.sections[1].to_nm: would replace set[0], which sets filaments[0]
+scene.ron => absent.ron => absent.ron:
+"#;
 
 #[test]
 fn mistakes_of_a_sweep_have_their_place() {
-    for (from, to, message) in MISTAKES {
-        let place = place(&SWEEP.replacen(from, to, 1));
+    for line in MISTAKES.trim().lines() {
+        let parts: Vec<&str> = line.split(" => ").collect();
+        let place = place(&SWEEP.replacen(parts[0], parts[1], 1));
         for flag in ["--check", "--resume"] {
             let found = place.fail(2, &["sweep", "sweep.ron", flag]);
-            assert!(found.starts_with(&format!("error: {message}")), "{found}");
+            assert!(
+                found.starts_with(&format!("error: {}", parts[2])),
+                "{found}"
+            );
         }
         assert!(!place.path("sweeps").exists());
     }

@@ -68,18 +68,18 @@ fn pages_work_in_a_browser() {
         return;
     };
     let pages = [
-        (MOTION, Mode::Light),
-        (PATH, Mode::Dark),
-        (PAIR, Mode::Light),
+        (MOTION, Mode::Light, &WIDTHS[..]),
+        (PATH, Mode::Dark, &WIDTHS[1..]),
+        (PAIR, Mode::Light, &WIDTHS[..1]),
     ];
-    pages.into_par_iter().for_each(|(scene, mode)| {
+    pages.into_par_iter().for_each(|(scene, mode, widths)| {
         let place = ran(scene);
         let page = page(&place);
         let folder = tempfile::tempdir().unwrap();
-        let found = probed(&browser, (&page, PROBE), &WIDTHS, mode, folder.path());
+        let found = probed(&browser, (&page, PROBE), widths, mode, folder.path());
         let warnings = warnings(&place);
-        for (found, width) in found.iter().zip(WIDTHS) {
-            assert_works(found, width);
+        for (found, width) in found.iter().zip(widths) {
+            assert_works(found, *width);
             assert_eq!(found["remarks"], json!(warnings));
         }
     });

@@ -268,35 +268,19 @@ mod tests {
 
     #[test]
     fn bad_numbers_are_refused() {
-        let law = laws()[0];
-        let over = |over| SidedTwist { over, ..law };
-        for (key, law) in [
-            ("rest", SidedTwist { rest: -1.0, ..law }),
-            (
-                "rise",
-                over(TwistRise {
-                    rise: 0.0,
-                    ..law.over
-                }),
-            ),
-            (
-                "half",
-                over(TwistRise {
-                    half: f64::NAN,
-                    ..law.over
-                }),
-            ),
-            (
-                "slow",
-                over(TwistRise {
-                    slow: -1.0,
-                    ..law.over
-                }),
-            ),
-            ("range", SidedTwist { range: 0.0, ..law }),
-        ] {
+        type Spoil = fn(&mut SidedTwist);
+        let spoil: [(_, Spoil); 5] = [
+            ("rest", |law| law.rest = -1.0),
+            ("rise", |law| law.over.rise = 0.0),
+            ("half", |law| law.over.half = f64::NAN),
+            ("slow", |law| law.over.slow = -1.0),
+            ("range", |law| law.range = 0.0),
+        ];
+        for (key, spoil) in spoil {
+            let mut law = laws()[0];
+            assert_eq!(law.validate(), Ok(()));
+            spoil(&mut law);
             assert_eq!(law.validate().unwrap_err().key.to_string(), key);
         }
-        assert_eq!(law.validate(), Ok(()));
     }
 }

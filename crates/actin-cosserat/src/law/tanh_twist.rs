@@ -264,34 +264,20 @@ pub(super) mod tests {
 
     #[test]
     fn widths_ranges_and_falling_couples_are_refused() {
+        let key = |spoil: &dyn Fn(&mut TanhTwist)| {
+            let mut law = TanhTwist::published();
+            assert_eq!(law.validate(), Ok(()));
+            spoil(&mut law);
+            law.validate().unwrap_err().key
+        };
         for i in [1, 4, 6] {
             for value in [0.0, -1.0, f64::NAN] {
-                let mut law = TanhTwist::published();
-                law.lambda[i] = value;
-                assert!(
-                    law.validate()
-                        .unwrap_err()
-                        .key
-                        .to_string()
-                        .starts_with("lambda")
-                );
+                let found = key(&|law| law.lambda[i] = value);
+                assert!(found.to_string().starts_with("lambda"), "{found}");
             }
         }
-        let mut law = TanhTwist::published();
-        law.lambda[0] = f64::INFINITY;
-        assert_eq!(law.validate().unwrap_err().key, RodKey::Lambda);
-        let falling = TanhTwist {
-            b_plus: -5e4,
-            ..TanhTwist::published()
-        };
-        assert!(
-            falling
-                .validate()
-                .unwrap_err()
-                .key
-                .to_string()
-                .starts_with("slope")
-        );
-        assert_eq!(TanhTwist::published().validate(), Ok(()));
+        assert_eq!(key(&|law| law.lambda[0] = f64::INFINITY), RodKey::Lambda);
+        let falling = key(&|law| law.b_plus = -5e4);
+        assert!(falling.to_string().starts_with("slope"), "{falling}");
     }
 }

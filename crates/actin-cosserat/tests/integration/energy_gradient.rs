@@ -2,40 +2,10 @@
 
 use crate::common;
 use actin_cosserat::{EnergyGradient, Rigidities, RodEnd, RodLayout, RodMaterial, StraightRod};
-use actin_mechanics::Xorshift;
 use actin_mechanics::testing::loads_of;
 use actin_mechanics::{Interaction, State, Vector3, rotation};
-use common::{ALL_WALLS, material, rod, strained_rod};
+use common::ALL_WALLS;
 use std::f64::consts::TAU;
-
-/// Tolerance: round-off of positions (1e-15 nm) times rigidity divided by length.
-#[test]
-fn a_straight_rod_is_at_rest() {
-    let mut noise = Xorshift::new(2);
-    for walls in ALL_WALLS {
-        let (state, layout) = rod(7, walls, &mut noise);
-        let rod = EnergyGradient::new(layout, material());
-        let loads = loads_of(&rod, &state);
-        for load in loads.force.iter().chain(loads.torque.iter()) {
-            assert!(load.norm() < 1e-9, "{load}");
-        }
-        assert!(rod.energy(&state) < 1e-20);
-    }
-}
-
-#[test]
-fn other_bodies_have_no_loads() {
-    let mut noise = Xorshift::new(3);
-    let (state, layout) = strained_rod(3, ALL_WALLS[3], &mut noise);
-    let (points, frames) = (layout.points(), layout.bending_chain());
-    let loads = loads_of(&EnergyGradient::new(layout, material()), &state);
-    for (i, force) in loads.force.iter().enumerate() {
-        assert_eq!(force.norm() > 0.0, points.contains(&i), "point {i}");
-    }
-    for (i, torque) in loads.torque.iter().enumerate() {
-        assert_eq!(torque.norm() > 0.0, frames.contains(&i), "frame {i}");
-    }
-}
 
 fn table4() -> RodMaterial {
     RodMaterial::new(Rigidities::table4()).unwrap()

@@ -51,38 +51,6 @@ fn twelve_points_meet_the_moments() {
 }
 
 #[test]
-fn moments_agree_with_sampled_bonds() {
-    const DRAWS: usize = 200_000;
-    for shortest in [0.0, 0.2] {
-        for kind in InterfaceKind::ALL {
-            let parameters = parameters(12, shortest);
-            let finder = Finder::new(&parameters, kind).unwrap();
-            let mut stream = Stream::new(7, 0, kind.number());
-            let share = 1.0 / DRAWS as f64;
-            let drawn: Vec<(Site, f64)> = (0..DRAWS)
-                .map(|_| (finder.draw(&mut stream), share))
-                .collect();
-            let points = Cubature::for_interface(&parameters, kind).unwrap();
-            let points: Vec<(Site, f64)> = points
-                .points
-                .iter()
-                .map(|p| (finder.moments.site(p.place, p.length), p.weight))
-                .collect();
-            let [of_points, of_drawn] = [&points, &drawn].map(|s| finder.moments.residuals(s));
-            let apart = of_points
-                .iter()
-                .zip(of_drawn.iter())
-                .map(|(a, b)| (a - b).abs());
-            let worst = apart.fold(0.0, f64::max);
-            assert!(
-                worst < 5.0 / (DRAWS as f64).sqrt(),
-                "{shortest} {kind}: {worst}"
-            );
-        }
-    }
-}
-
-#[test]
 fn more_points_reduce_the_residual() {
     let residual = |points| {
         let found = Cubature::find(&parameters(points, 0.2), Longitudinal).unwrap();

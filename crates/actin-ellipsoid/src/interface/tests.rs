@@ -174,31 +174,6 @@ fn overlapping_monomers_are_bonded_outside_the_overlap() {
     }
 }
 
-#[test]
-fn draws_are_keyed_by_kind_and_index() {
-    let mut parameters = with_bonds(1);
-    let first = |parameters: &EllipsoidParameters, kind, index| {
-        Interface::draw(parameters, kind, index).unwrap().bonds[0].lower
-    };
-    assert_ne!(
-        first(&parameters, Lateral, 0),
-        first(&parameters, Lateral, 1)
-    );
-    assert_ne!(
-        first(&parameters, Lateral, -1),
-        first(&parameters, Lateral, 1)
-    );
-    parameters.anchors = Anchors::Identical;
-    assert_eq!(
-        first(&parameters, Lateral, 0),
-        first(&parameters, Lateral, -7)
-    );
-    assert_ne!(
-        first(&parameters, Lateral, 0),
-        first(&parameters, Longitudinal, 0)
-    );
-}
-
 /// Sines of the helix may differ in the last digit between machines.
 #[test]
 fn anchors_are_those_of_the_first_release() {

@@ -59,9 +59,6 @@ fn twelve_quadrature_bonds_have_the_energy_of_many_sampled_bonds() {
             }
         }
         let [weighted, drawn] = squares.map(f64::sqrt);
-        println!(
-            "{kind}: 12 quadrature bonds {weighted:.1e}, 64 sampled bonds {drawn:.1e} (rms of the energy)"
-        );
         assert!(weighted < 0.1 * drawn, "{kind}: {weighted} {drawn}");
     }
 }

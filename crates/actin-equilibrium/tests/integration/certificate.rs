@@ -184,7 +184,6 @@ fn the_lowest_eigenvalue_excludes_neutral_modes() {
     let (chain, terms) = chain();
     let exact = 40.0 * (std::f64::consts::PI / 18.0).sin().powi(2);
     let found = lowest(&chain, &terms).unwrap();
-    println!("lowest eigenvalue {found} instead of {exact} pN/nm");
     assert!((found / exact - 1.0).abs() < 2e-9, "{found}");
     assert_eq!(lowest(&bodies(1, 1), &vec![]), None);
     let saddle: Terms = vec![Box::new(Wells(vec![(0, diagonal([0.0, -2.0, 5.0]))]))];

@@ -49,9 +49,9 @@ fn a_chain_keeps_the_order_given() {
     assert_eq!(cheaper, given);
 }
 
-/// Newton steps, factorisations and energy of a cantilever of floppy monomers, bent by the same
-/// angle at every length.
-fn floppy(monomers: usize) -> (u64, u64, f64) {
+/// Newton steps and factorisations of a cantilever of floppy monomers, bent by the same angle at
+/// every length.
+fn floppy(monomers: usize) -> (u64, u64) {
     let (mut state, bonds) = filament(monomers, 10, 5);
     let control = state.add_control(2.0 * (60.0 / monomers as f64).powi(2));
     let shares = vec![(monomers - 1, 0.5), (monomers - 2, 0.5)];
@@ -69,18 +69,13 @@ fn floppy(monomers: usize) -> (u64, u64, f64) {
     let mut newton = Newton::new(layout, options).unwrap();
     let found = newton.minimize(&mut state, &terms, 3).unwrap();
     assert!(!found.is_saddle());
-    (
-        found.work.iterations,
-        found.work.factorizations,
-        found.energy,
-    )
+    (found.work.iterations, found.work.factorizations)
 }
 
 #[test]
 fn steps_hardly_grow_with_length() {
     for (monomers, steps, factorizations) in STEPS {
-        let (took, factorized, energy) = floppy(monomers);
-        println!("{monomers}: {took} steps, {factorized} factorisations, {energy} pN nm");
+        let (took, factorized) = floppy(monomers);
         assert!(took <= steps && factorized <= factorizations, "{monomers}");
     }
 }

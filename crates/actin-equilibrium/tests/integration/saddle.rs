@@ -108,31 +108,6 @@ fn a_minimum_is_not_left() {
     assert_eq!(state, before);
 }
 
-#[test]
-fn rigid_motions_are_neutral() {
-    let mut state = State::default();
-    let mut edges = Vec::new();
-    let corners = [
-        [0.0, 0.0, 0.0],
-        [3.0, 0.0, 0.0],
-        [0.0, 2.0, 0.0],
-        [1.0, 1.0, 2.5],
-    ];
-    for corner in corners {
-        point(&mut state, Vector3::from(corner));
-    }
-    for i in 0..4 {
-        for j in 0..i {
-            let d = state.points.position.get(i) - state.points.position.get(j);
-            edges.push((i, j, 10.0, d.norm()));
-        }
-    }
-    let terms: Terms = vec![springs(&state, edges)];
-    let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
-    let certificate = newton.certify(&state, &terms).unwrap();
-    assert_eq!(certificate.stability(), Stability::Neutral { modes: 6 });
-}
-
 fn disturbed(straight: &State) -> State {
     let mut state = straight.clone();
     perturb(&mut state, &mut Xorshift::new(4), 1e-3, 1e-4);

@@ -40,10 +40,6 @@ fn a_straight_rod_stretches_linearly_at_any_tension() {
             let found = SHORT.newton(&state).solve(&mut state, &terms).unwrap();
             let (tip, steps) = (SHORT.tip(&state), found.history.len());
             let (strain, exact) = (tip.norm() / SHORT.length - 1.0, force / ACTIN.shear.z);
-            println!(
-                "{force:e} pN: {steps} steps, strain {strain}, {:?}",
-                found.residual
-            );
             let is_at_floor = found.ending == Convergence::FloorReached;
             assert!(is_at_floor || found.residual.force <= 1e-8, "{force}");
             assert!(steps <= 150 || is_at_floor, "{force}: {steps}");

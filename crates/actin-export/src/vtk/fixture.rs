@@ -6,7 +6,10 @@ use vtkio::model::{DataSet, Piece, PolyDataPiece, Vtk};
 
 /// Monomers at a clamped start, followed by a rod.
 const MIXED: &str = "Scene(
-    filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)]),
+    filament: Filament(
+        sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)],
+        monomers: Monomers(anchors: Independent),
+    ),
     clamps: [Clamp(end: Start)],
     task: Dynamics(duration_ns: 1.0),
 )";

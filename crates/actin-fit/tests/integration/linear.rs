@@ -163,37 +163,18 @@ fn invalid_lists_are_refused() {
     let design = Mat::from_fn(2, 1, |i, _| if i == 1 { f64::NAN } else { 1.0 });
     let rows = |values: &[f64]| Data::from_rows(2, values, observations(&[1.0, 2.0]));
     let wide = rows(&[1.0; 4]).unwrap();
-    for (found, message) in [
-        (
-            refused(Observations::new(&[0.0, f64::INFINITY])),
-            "observation 1 must be finite, but is inf",
-        ),
-        (
-            refused(Data::new(&[f64::NEG_INFINITY], one())),
-            "x 0 must be finite, but is -inf",
-        ),
-        (
-            refused(fit_linear(design.as_ref(), &observations(&[1.0, 2.0]))),
-            " 1 must be finite, but is NaN",
-        ),
-        (
-            refused(one().with_weights(&[0.0])),
-            "weight 0 must be positive and finite, but is 0",
-        ),
-        (
-            refused(one().with_deviations(&[-1.0])),
-            "deviation 0 must be positive and finite, but is -1",
-        ),
-        (
-            refused(one().with_weights(&[1.0, 1.0])),
-            "weights must have length 1, but has 2",
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        (refused(Observations::new(&[0.0, f64::INFINITY])), "observation 1 must be finite, but is inf"),
+        (refused(Data::new(&[f64::NEG_INFINITY], one())), "x 0 must be finite, but is -inf"),
+        (refused(fit_linear(design.as_ref(), &observations(&[1.0, 2.0]))), " 1 must be finite, but is NaN"),
+        (refused(one().with_weights(&[0.0])), "weight 0 must be positive and finite, but is 0"),
+        (refused(one().with_deviations(&[-1.0])), "deviation 0 must be positive and finite, but is -1"),
+        (refused(one().with_weights(&[1.0, 1.0])), "weights must have length 1, but has 2"),
         (refused(rows(&[1.0; 3])), "x must have length 4, but has 3"),
-        (
-            refused(Polynomial::new(0).fit(&wide)),
-            " must have length 1, but has 2",
-        ),
-    ] {
+        (refused(Polynomial::new(0).fit(&wide)), " must have length 1, but has 2"),
+    ];
+    for (found, message) in cases {
         assert!(found.ends_with(message), "{found}");
     }
 }

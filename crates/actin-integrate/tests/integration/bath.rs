@@ -4,7 +4,8 @@
 
 use crate::common;
 use actin_integrate::{
-    Bath, Composition, Drag, PEFRL, POSITION_VERLET, Run, VELOCITY_VERLET, advance, advance_in,
+    Bath, Composition, Drag, PEFRL, POSITION_VERLET, Run, VEFRL, VELOCITY_VERLET, advance,
+    advance_in,
 };
 use actin_mechanics::testing::{push_frame, push_point};
 
@@ -234,7 +235,7 @@ fn points_drift_and_diffuse_as_they_should_at_any_step() {
             let mut system = System::new(state, vec![Box::new(pull)]);
             let bath = bath(gamma, 1.0, KT, 41);
             // Equilibration of the velocities.
-            let warm = Run::from_duration(&PEFRL, h, 20.0 / gamma).unwrap().steps();
+            let warm = Run::from_duration(&PEFRL, h, 10.0 / gamma).unwrap().steps();
             advance_in(&mut system, &scheme, h, warm, &bath, 0);
             let start = system.state().points.position.clone();
             advance_in(&mut system, &scheme, h, steps, &bath, warm);
@@ -288,9 +289,14 @@ fn at_zero_temperature_a_bath_is_drag() {
 
 /// Final state of a chain in a bath with observations in intervals, optionally interrupted at
 /// `resume` and continued in a new system.
-fn end_of_run(seed: u64, observe_every: u64, resume: Option<u64>) -> State {
+fn end_of_run(
+    scheme: &'static Composition,
+    seed: u64,
+    observe_every: u64,
+    resume: Option<u64>,
+) -> State {
     let run = |steps| {
-        Run::new(&PEFRL, 0.05, steps)
+        Run::new(scheme, 0.05, steps)
             .unwrap()
             .with_bath(bath(0.3, 0.3, 1e-3, seed))
             .observing_every(observe_every)
@@ -312,14 +318,15 @@ fn end_of_run(seed: u64, observe_every: u64, resume: Option<u64>) -> State {
 
 #[test]
 fn runs_are_functions_of_the_seed_alone() {
-    let reference = end_of_run(1, 1000, None);
-    assert!(reference.kinetic_energy() > 0.0);
-    assert_eq!(end_of_run(1, 1000, None), reference);
-    for every in [1, 7, 100] {
-        assert_eq!(end_of_run(1, every, None), reference);
+    for scheme in [&POSITION_VERLET, &PEFRL, &VEFRL] {
+        let reference = end_of_run(scheme, 1, 1000, None);
+        assert!(reference.kinetic_energy() > 0.0);
+        for every in [1, 7, 100] {
+            assert_eq!(end_of_run(scheme, 1, every, None), reference);
+        }
+        for steps in [1, 123, 499] {
+            assert_eq!(end_of_run(scheme, 1, 50, Some(steps)), reference);
+        }
+        assert!(distance(&end_of_run(scheme, 2, 1000, None), &reference) > 1e-3);
     }
-    for steps in [1, 123, 499] {
-        assert_eq!(end_of_run(1, 50, Some(steps)), reference);
-    }
-    assert!(distance(&end_of_run(2, 1000, None), &reference) > 1e-3);
 }

@@ -176,6 +176,7 @@ impl Observer for Steps {
 fn pauses_are_close_and_cost_nothing() {
     for scheme in Composition::all() {
         let run = Run::new(scheme, 0.05, 1000).unwrap();
+        let run = run.observing_every(7).unwrap();
         let mut steps = Steps(vec![0]);
         let outcome = run
             .execute(&mut vibrating_tops(1), &mut [&mut steps])

@@ -20,7 +20,6 @@ fn chain_of_springs() {
     for n in [1, 2, 10, 200, 3000] {
         let system = chain(n + 2, 2000.0, 0.07);
         let ratio = largest_frequency(&system).unwrap() / chain_frequency(n, 2000.0, 0.07);
-        println!("chain of {n}: 1 - {:.2e}", 1.0 - ratio);
         // High only by the error of the difference; low by less than the bound.
         assert!(ratio < 1.0 + 1e-6, "{n}: {ratio}");
         assert!(ratio > 0.99, "{n}: {ratio}");
@@ -182,24 +181,11 @@ fn negative_stiffness_does_not_count() {
 }
 
 #[test]
-fn cost_in_evaluations() {
-    let (mut system, evaluations) =
-        linear(100, [[8.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 2.0]]);
+fn few_eigenvalues_cost_few_evaluations() {
+    let (system, evaluations) = linear(100, [[8.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 2.0]]);
     largest_frequency(&system).unwrap();
     // Three eigenvalues close the space after three vectors.
     assert_eq!(evaluations.load(Ordering::Relaxed), 6);
-    // Unequal masses give 300 different eigenvalues.
-    let mut state = State::default();
-    for i in 0..100_u32 {
-        push_point(&mut state, Vector3::zeros(), 1.0 + f64::from(i));
-    }
-    *system.state_mut() = state;
-    evaluations.store(0, Ordering::Relaxed);
-    largest_frequency(&system).unwrap();
-    assert_eq!(
-        evaluations.load(Ordering::Relaxed),
-        2 * KRYLOV_VECTORS as u64
-    );
 }
 
 #[test]
@@ -232,6 +218,7 @@ fn a_broken_term_among_many_is_found_in_few_evaluations() {
     assert!(found <= most, "{found} of at most {most}");
 }
 
+/// Unequal masses give 300 different eigenvalues.
 #[test]
 fn sound_terms_are_evaluated_twice_for_each_vector() {
     for terms in [1_u64, 50] {

@@ -1,7 +1,7 @@
 use crate::common;
 use actin_integrate::{
     Body, Drag, FailureKind, Moment, Observer, PEFRL, POSITION_VERLET, Reason, Run,
-    RunSettingError, StopRule, VEFRL, largest_frequency, stable_step,
+    RunSettingError, StopRule, largest_frequency, stable_step,
 };
 use actin_mechanics::testing::Loading;
 use actin_mechanics::{Interaction, Loads, Spring, Springs, State, System, Vector3};
@@ -79,21 +79,6 @@ fn observers_see_synchronised_states() {
     assert_eq!((outcome.steps, outcome.time), (25, 25.0 * h));
 }
 
-/// Observations and checks cost no evaluations. The final residual costs one if the scheme ends
-/// with a drift.
-#[test]
-fn work_of_a_run() {
-    for (scheme, per_step) in [(&POSITION_VERLET, 1), (&PEFRL, 4), (&VEFRL, 4)] {
-        let outcome = Run::new(scheme, 0.01, 1000)
-            .unwrap()
-            .observing_every(7)
-            .unwrap()
-            .execute(&mut three_tops(), &mut [])
-            .unwrap();
-        assert_eq!(outcome.force_evaluations, 1000 * per_step + 1, "{scheme}");
-    }
-}
-
 #[test]
 fn stop_rule_ends_a_damped_run() {
     let rule = StopRule::new(1e-6, 1e-6, 1e-10).unwrap();
@@ -161,44 +146,6 @@ fn interruption() {
     assert_eq!(last, 150);
 }
 
-#[test]
-fn continuation_is_exact_to_the_bit() {
-    for drag in [Drag::NONE, Drag::new(0.2, 0.1).unwrap()] {
-        for scheme in [&POSITION_VERLET, &PEFRL, &VEFRL] {
-            let run = |steps| {
-                Run::new(scheme, 0.01, steps)
-                    .unwrap()
-                    .with_drag(drag)
-                    .observing_every(50)
-                    .unwrap()
-                    .checking_every(30)
-                    .unwrap()
-            };
-            let mut whole = spinning_tops();
-            run(1000).execute(&mut whole, &mut []).unwrap();
-
-            let mut first = spinning_tops();
-            let part = run(1000)
-                .execute(&mut first, &mut [&mut Until(420)])
-                .unwrap();
-            assert_eq!(part.steps, 450);
-            let mut second = spinning_tops();
-            second.state_mut().clone_from(first.state());
-            let mut seen = Vec::new();
-            let mut observer = |moment: &mut Moment<'_>| {
-                seen.push(moment.step);
-                ControlFlow::Continue(())
-            };
-            let rest = run(550)
-                .continuing_from(450)
-                .execute(&mut second, &mut [&mut observer])
-                .unwrap();
-            assert_eq!(whole.state(), second.state(), "{scheme}");
-            assert_eq!((seen[0], rest.steps, rest.time), (500, 550, 1000.0 * 0.01));
-        }
-    }
-}
-
 /// One spring is far too stiff for the step. The error names its term and one of its points, and
 /// the last observed state is restored.
 #[test]
@@ -264,30 +211,6 @@ fn a_frame_that_spins_up_is_found() {
     assert!(matches!(failure.problem, FailureKind::TurnsTooFar(_)));
     assert!(matches!(failure.body, Body::Frame(0 | 2)));
     assert_eq!((failure.term, failure.last_good_step), ("torsion", 0));
-}
-
-#[test]
-fn a_load_that_is_not_a_number_is_traced_to_its_term() {
-    let state = chain(6, 4.0, 1.0).state().clone();
-    let springs = springs(&state, 4.0, 1.0);
-    // Loads are not numbers for x > 2.2 of point 2.
-    let add = |state: &State, loads: &mut Loads| {
-        let room = 2.2 - state.points.position.get(2).x;
-        loads.force.add(2, Vector3::x() * (1e-3 * room.sqrt()));
-    };
-    let term = "singular";
-    let singular = Loading { term, add };
-    let mut system = System::new(state, vec![Box::new(springs), Box::new(singular)]);
-    system.state_mut().points.velocity.set(2, Vector3::x());
-    let failure = Run::new(&POSITION_VERLET, 0.05, 100)
-        .unwrap()
-        .execute(&mut system, &mut [])
-        .unwrap_err();
-    println!("{failure}");
-    assert_eq!((failure.body, failure.term), (Body::Point(2), "singular"));
-    // 0.2 nm at 1 nm/ns takes 4 to 5 steps of 0.05 ns.
-    assert!((4..=6).contains(&failure.step), "{failure}");
-    assert!(system.state().is_finite());
 }
 
 #[test]

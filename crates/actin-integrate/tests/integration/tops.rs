@@ -3,19 +3,8 @@ use actin_integrate::{
     Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, VELOCITY_VERLET,
     advance, largest_frequency, stable_step,
 };
-use actin_mechanics::testing::{assert_is_balanced, assert_is_gradient};
 use actin_mechanics::{State, System};
 use common::{distance, spinning_tops, vibrating_tops};
-
-#[test]
-fn test_interactions_are_gradients_and_balanced() {
-    let system = spinning_tops();
-    for interaction in system.interactions() {
-        // Energies vary over lengths of order 1.
-        assert_is_gradient(interaction.as_ref(), system.state(), 1e-2, 1e-9);
-        assert_is_balanced(interaction.as_ref(), system.state(), 1e-14);
-    }
-}
 
 fn state_after(scheme: &Composition, time: f64, steps: u32) -> State {
     let mut system = spinning_tops();
@@ -44,7 +33,6 @@ fn order_on_a_spinning_state() {
             (errors[0] / errors[1]).log2(),
             (errors[1] / errors[2]).log2(),
         ];
-        println!("{scheme}: errors {errors:?}, orders {orders:.4?}");
         assert!(
             (orders[1] - f64::from(scheme.order())).abs() < 0.05,
             "{scheme}: {orders:?}"
@@ -63,7 +51,6 @@ fn time_reversal() {
         assert!(distance(system.state(), &start) > 1.0);
         advance(&mut system, scheme, -0.05, 200, &Drag::NONE);
         let missed = distance(system.state(), &start);
-        println!("{scheme}: missed by {missed:.1e}");
         // Rounding errors of 1e-16 in each of 4000 stages, amplified by diverging trajectories.
         assert!(missed < 1e-11, "{scheme}: {missed:e}");
     }
@@ -77,7 +64,6 @@ fn momenta_stay_to_round_off() {
         advance(&mut system, scheme, 0.1, 10_000, &Drag::NONE);
         let (p_end, l_end) = (system.state().momentum(), system.state().angular_momentum());
         let (dp, dl) = ((p_end - p).norm(), (l_end - l).norm());
-        println!("{scheme}: momentum {dp:.1e}, angular momentum {dl:.1e}");
         // Random walk of 1e5 rounding errors of 1e-16, growing with the distance travelled.
         assert!(dp < 1e-12 && dl < 1e-10, "{scheme}: {dp:e}, {dl:e}");
     }
@@ -121,7 +107,7 @@ fn energy_trend(scheme: &Composition, share: f64, seed: u64) -> [f64; 3] {
 fn energy_is_bounded_without_a_trend() {
     for scheme in Composition::all() {
         let share = if *scheme == VEFRL { 0.4 } else { 0.5 };
-        for seed in 1..=4 {
+        for seed in 1..=2 {
             let [early, late, drift] = energy_trend(scheme, share, seed);
             // The error depends on the fluctuating energy of the fastest modes. In eight starts the
             // ratio reached 1.47 and the drift 0.06 of the fluctuation.
@@ -134,7 +120,7 @@ fn energy_is_bounded_without_a_trend() {
 /// Known limitation: at half its limit the energy of VEFRL diffuses, by up to 3e-3 in eight starts.
 #[test]
 fn vefrl_at_half_its_limit_diffuses_slowly() {
-    for seed in 1..=4 {
+    for seed in 1..=2 {
         let [_, late, drift] = energy_trend(&VEFRL, 0.5, seed);
         assert!(drift.abs() < 1e-2 && late < 2e-2, "{drift:e}, {late:e}");
     }

@@ -232,25 +232,15 @@ mod tests {
 
     #[test]
     fn bad_headers_are_refused() {
-        for (header, expected) in [
-            (
-                "kappa,b3_pn_nm2",
-                "column `kappa` is unknown; known columns: kappa3_rad_per_nm, b3_pn_nm2,",
-            ),
-            (
-                "b3_pn_nm2",
-                "column `kappa3_rad_per_nm` is missing: `b3_pn_nm2` needs it",
-            ),
-            (
-                "force_pn,strain_error",
-                "column `strain` is missing: `strain_error` needs it",
-            ),
-            (
-                "kappa3_rad_per_nm",
-                "a column of values is missing, one of b3_pn_nm2, dl_over_l,",
-            ),
+        #[rustfmt::skip]
+        let cases = [
+            ("kappa,b3_pn_nm2", "column `kappa` is unknown; known columns: kappa3_rad_per_nm, b3_pn_nm2,"),
+            ("b3_pn_nm2", "column `kappa3_rad_per_nm` is missing: `b3_pn_nm2` needs it"),
+            ("force_pn,strain_error", "column `strain` is missing: `strain_error` needs it"),
+            ("kappa3_rad_per_nm", "a column of values is missing, one of b3_pn_nm2, dl_over_l,"),
             ("force_pn,strain,strain", "column `strain` occurs twice"),
-        ] {
+        ];
+        for (header, expected) in cases {
             let message = read(format!("{header}\n1,2\n")).unwrap_err();
             assert!(message.contains(expected), "{message}");
         }
@@ -261,27 +251,17 @@ mod tests {
     #[test]
     fn bad_cells_are_refused_with_their_place() {
         let header = "kappa3_rad_per_nm,b3_pn_nm2,b3_error_pn_nm2\n0.01,100,1\n";
-        for (row, expected) in [
+        #[rustfmt::skip]
+        let cases = [
             ("0.1,x,1", ":3:2: `b3_pn_nm2` is `x`: must be a number"),
-            (
-                "inf,1,1",
-                ":3:1: `kappa3_rad_per_nm` is `inf`: must be finite",
-            ),
+            ("inf,1,1", ":3:1: `kappa3_rad_per_nm` is `inf`: must be finite"),
             ("0.1,-5,1", ":3:2: `b3_pn_nm2` is `-5`: must be positive"),
-            (
-                "0.1,5,0",
-                ":3:3: `b3_error_pn_nm2` is `0`: must be positive",
-            ),
-            (
-                ",1.0,1",
-                ":3: a `b3_pn_nm2` without its `kappa3_rad_per_nm`",
-            ),
-            (
-                "0.1,1.0,",
-                ":3: a `b3_pn_nm2` without its `b3_error_pn_nm2`",
-            ),
+            ("0.1,5,0", ":3:3: `b3_error_pn_nm2` is `0`: must be positive"),
+            (",1.0,1", ":3: a `b3_pn_nm2` without its `kappa3_rad_per_nm`"),
+            ("0.1,1.0,", ":3: a `b3_pn_nm2` without its `b3_error_pn_nm2`"),
             ("0.1,,1", ":3: a `b3_error_pn_nm2` without its `b3_pn_nm2`"),
-        ] {
+        ];
+        for (row, expected) in cases {
             let message = read(format!("{header}{row}\n")).unwrap_err();
             assert!(message.contains(expected), "{message}");
         }

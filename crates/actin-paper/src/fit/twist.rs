@@ -172,17 +172,10 @@ mod tests {
         let data = FitData::from_paper(false);
         let data = data.rigidity.observed(Weight::Equal).unwrap();
         let range = 1.0;
+        #[rustfmt::skip]
         let checks: [(&dyn Model, &[f64]); 3] = [
-            (
-                &Tanh {
-                    limits: TanhTwist::published(),
-                },
-                &TanhTwist::published().lambda,
-            ),
-            (
-                &Sided { range },
-                &[300.0, 1.3e4, 0.009, 0.02, 2e4, 0.012, 0.016],
-            ),
+            (&Tanh { limits: TanhTwist::published() }, &TanhTwist::published().lambda),
+            (&Sided { range }, &[300.0, 1.3e4, 0.009, 0.02, 2e4, 0.012, 0.016]),
             (&Rooted { range }, &[-0.29, 0.46, 0.0067, 28.0]),
         ];
         for (model, parameters) in checks {

@@ -1,13 +1,11 @@
 //! Closed forms for rods, monomers and mixed filaments under the protocols.
 
-use super::follow::follow;
-use super::sweep::{far_end_shift, reaction};
+use super::sweep::far_end_shift;
 use super::*;
 use crate::run::run_to_end;
 use actin_sim::{
     Assembly, Filament, ForceLaw, Hold, Monomers, RodLaw, RodModel, Scene, Section, Summary,
 };
-use actin_sim::{End, FreeTranslation, Load, Setting, Stage};
 use std::f64::consts::PI;
 
 /// Rise and distance from the axis (nm), turn (rad) of the default monomers.
@@ -150,50 +148,6 @@ fn stretching_stays_below_the_uniformly_strained_springs() {
     }
 }
 
-/// Reciprocity (Maxwell, Betti): the torque per force at held turn equals the length change per
-/// turn at held force.
-#[test]
-fn pulling_and_turning_are_reciprocal() {
-    let specimen = monomers(27.0, 0);
-    let at = |turn: f64, force: f64| {
-        let path = vec![Stage {
-            set: vec![
-                Setting::Turn {
-                    filament: 0,
-                    end: End::End,
-                    turn_deg: [0.0, 0.0, turn],
-                },
-                Setting::LoadFactor {
-                    load: 0,
-                    factor: force,
-                },
-            ],
-            duration_ns: None,
-            pace: actin_sim::TimeCourse::Smooth,
-        }];
-        let unit = Load::EndForce {
-            filament: 0,
-            end: End::End,
-            force_pn: [0.0, 0.0, 1.0],
-        };
-        let scene = specimen.scene("", Some(FreeTranslation::AlongAxis), vec![unit], path);
-        let course = follow(&scene).unwrap();
-        let state = &course.stops[0].state;
-        let couple = reaction(&course.assembly, state, End::End).torque_pn_nm.z;
-        (couple, far_end_shift(&course.assembly, state).z)
-    };
-    let (turn, force) = (60.0, 20.0);
-    let (dturn, dforce) = (0.05_f64, 0.2);
-    let by_force = (at(turn, force + dforce).0 - at(turn, force - dforce).0) / (2.0 * dforce);
-    let by_turn =
-        (at(turn + dturn, force).1 - at(turn - dturn, force).1) / (2.0 * dturn.to_radians());
-    // Second-order differences: doubling the steps changes the fifth digit.
-    assert!(
-        (by_force + by_turn).abs() < 1e-5 * by_turn.abs(),
-        "{by_force} {by_turn}"
-    );
-}
-
 /// Torques at the two ends balance without lateral forces. A mixed filament twists as much as its
 /// parts in series.
 #[test]
@@ -322,52 +276,6 @@ fn values_that_are_not_reached_are_named() {
     let missing: Vec<f64> = curve.unreached.iter().map(|u| u.value).collect();
     assert_eq!(missing, [90.0, 180.0]);
     assert!(curve.points.is_empty() && !curve.unreached[0].reason.is_empty());
-}
-
-/// Twelve quadrature bonds agree with 4096 sampled bonds per interface within 4 % in twist, 0.2 %
-/// in stretch and 1 % in bending. The minimum bond length is 0.2 nm. Twist and bending are cubic
-/// and sensitive to the moments of `1/L^2` and `1/L^3`.
-#[test]
-fn twelve_quadrature_bonds_equal_thousands_of_sampled_bonds() {
-    let specimen = |monomers: Monomers| {
-        let monomers = Monomers {
-            min_bond_nm: 0.2,
-            ..monomers
-        };
-        Specimen::ellipsoids(27.0 * monomers.rise_nm, monomers)
-    };
-    let all = [
-        specimen(Monomers::default()),
-        specimen(Monomers::with_sampled_bonds(4096, 1)),
-    ];
-    let compare = |what: &str, measured: [Vec<f64>; 2], tolerance: f64| {
-        for (weighted, drawn) in measured[0].iter().zip(&measured[1]) {
-            let error = weighted / drawn - 1.0;
-            println!(
-                "{what}: {weighted:.5e} weighted, {drawn:.5e} drawn, {:.2} %",
-                100.0 * error
-            );
-            assert!(error.abs() < tolerance, "{what}: {weighted} {drawn}");
-        }
-    };
-    let turns = [-120.0, -40.0, 40.0, 120.0];
-    let secants = |s: &Specimen| twist(s, &turns).unwrap().points;
-    let b3 = all.each_ref().map(secants);
-    let b3 = b3.map(|points| points.iter().map(|p| p.rigidity_pn_nm2).collect());
-    compare("B3", b3, 0.04);
-    let stretched = |s: &Specimen| stretch_by_force(s, &[5.0, 50.0]).unwrap().points;
-    let s3 = all.each_ref().map(stretched);
-    let s3 = s3.map(|points| points.iter().map(|p| p.rigidity_pn).collect());
-    compare("S3", s3, 2e-3);
-    let curvatures = [3e-3, 1e-2];
-    let b1 = all
-        .each_ref()
-        .map(|s| bend_by_couples(s, &curvatures, 0.0).unwrap().points);
-    compare(
-        "B1",
-        b1.map(|points| points.iter().map(|p| p.rigidity_pn_nm2).collect()),
-        0.01,
-    );
 }
 
 /// Quadrature bonds have no samplings: a seed other than 0 is an error.

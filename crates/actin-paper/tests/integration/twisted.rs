@@ -58,10 +58,6 @@ fn a_twisted_rod_has_the_torque_and_length_of_its_law() {
             let couple = point.torque_pn_nm / (b3 * k) - 1.0;
             let near = point.near_torque_pn_nm / (b3 * k) + 1.0;
             let length = point.relative_length_change - extension;
-            println!(
-                "{:?}, {} deg: relative errors of the torques {couple:.1e} and {near:.1e}, of the length {length:.1e}",
-                specimen.filament.rod.law, point.turn_deg
-            );
             // Residuals of 1e-9 pN nm relative to 10 pN nm and more; of 1e-9 pN relative to S3.
             assert!(
                 couple.abs() < 1e-9 && near.abs() < 1e-9,

@@ -168,7 +168,3 @@ fn vectors(components: &[f64]) -> Vectors {
     let vectors = components.chunks_exact(3);
     vectors.map(|v| Vector3::new(v[0], v[1], v[2])).collect()
 }
-
-#[cfg(test)]
-#[path = "read_tests.rs"]
-mod tests;

@@ -1,6 +1,8 @@
-//! Collection of all mistakes of a text.
+//! Messages of mistakes, and collection of all mistakes of a text.
 
 use actin_scene::{Scene, SceneError, SceneProblem, SceneText};
+use std::fs;
+use std::path::Path;
 
 const SCENE: &str = "Scene(
     filament: Filament(
@@ -10,6 +12,48 @@ const SCENE: &str = "Scene(
     loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
     task: Equilibrium(force_pn: 1e-6),
 )";
+
+/// Returns `true` if a message has the parts of `expected`, separated by dots, in this order. A position is at the
+/// beginning.
+fn is_expected(message: &str, expected: &str) -> bool {
+    let starts_with_place = expected.starts_with(|c: char| c.is_ascii_digit());
+    let mut rest = message;
+    let is_next = |part: &str| {
+        let Some(at) = rest.find(part) else {
+            return false;
+        };
+        rest = &rest[at + part.len()..];
+        true
+    };
+    expected.split(" ... ").all(is_next)
+        && (!starts_with_place || message.starts_with(expected.split(" ... ").next().unwrap()))
+}
+
+/// Each file of `mistakes/` is a valid scene and, after a line of dashes, replacements in its text with parts of the
+/// message that they cause.
+#[test]
+fn mistakes_have_their_messages() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/integration/mistakes");
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let text = fs::read_to_string(&path).unwrap();
+        let (text, mistakes) = text.split_once("----\n").unwrap();
+        let scene = Scene::from_ron(text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        assert_eq!(Scene::from_ron(&scene.to_ron()), Ok(scene));
+        for line in mistakes.lines() {
+            let parts = line.split(" => ").map(|part| part.replace("\\n", "\n"));
+            let parts: Vec<String> = parts.collect();
+            let [right, wrong, expected] = &parts[..] else {
+                panic!("three parts are needed: {line}");
+            };
+            let spoilt = text.replacen(right, wrong, 1);
+            assert_ne!(spoilt, text, "{line}");
+            let found = Scene::from_ron(&spoilt).expect_err(line).to_string();
+            assert!(is_expected(&found, expected), "{line}: {found}");
+            assert!(!SceneText::new(&spoilt).mistakes().is_empty(), "{line}");
+        }
+    }
+}
 
 /// Two mistakes in different places are both found, in the order of the text, with the same messages as alone.
 #[test]

@@ -122,7 +122,7 @@ const JSON: &str = r#"{
     "task": {"Equilibrium": {}}
 }"#;
 
-/// A text that begins with a curly bracket is JSON, and errors have lines.
+/// A text that begins with a curly bracket is JSON.
 #[test]
 fn json_agrees_with_ron() {
     let ron = "Scene(
@@ -136,22 +136,4 @@ fn json_agrees_with_ron() {
     text.set("loads[0].force_pn[1]=0.2".parse().unwrap())
         .unwrap();
     assert!(text.scene().is_ok());
-    for (from, to, expected) in [
-        (
-            "\"to_nm\": 40",
-            "\"to_nm\": \"far\"",
-            "2:63: filament.sections[0].to_nm: a number is expected, not",
-        ),
-        (
-            "\"end\": \"Start\"",
-            "\"ends\": \"Start\"",
-            "3:17: unknown key `ends` in Clamp",
-        ),
-        ("\"Wall\"", "\"Walls\"", "3:41: unknown Hold Walls"),
-    ] {
-        let error = Scene::from_ron(&JSON.replacen(from, to, 1))
-            .unwrap_err()
-            .to_string();
-        assert!(error.starts_with(expected), "{error}");
-    }
 }

@@ -358,9 +358,9 @@ mod tests {
     fn crosslinkers_form_clusters() {
         let text = "Scene(
             filaments: [
-                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
-                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], at_nm: (500.0, 0.0, 0.0)),
-                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], at_nm: (512.0, 0.0, 0.0)),
+                Filament(rod: (law: Constant), sections: [Rod(from_nm: 0.0, to_nm: 100.0, segments: 2)]),
+                Filament(rod: (law: Constant), sections: [Rod(from_nm: 0.0, to_nm: 100.0, segments: 2)], at_nm: (500.0, 0.0, 0.0)),
+                Filament(rod: (law: Constant), sections: [Rod(from_nm: 0.0, to_nm: 100.0, segments: 2)], at_nm: (512.0, 0.0, 0.0)),
             ],
             crosslinkers: [Crosslinkers(count: 3, stiffness_pn_per_nm: 0.2, rest_length_nm: 10.0,
                 attach_per_ns: 1e-4, bind_per_ns: 1e-4, unbinds: Breaking(rate_per_ns: 1e-7), seed: 8)],
@@ -381,8 +381,8 @@ mod tests {
     fn crosslinkers_bind_to_nearest_images() {
         let text = "Scene(
             filaments: [
-                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
-                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], at_nm: (180.0, 0.0, 400.0)),
+                Filament(rod: (law: Constant), sections: [Rod(from_nm: 0.0, to_nm: 100.0, segments: 2)]),
+                Filament(rod: (law: Constant), sections: [Rod(from_nm: 0.0, to_nm: 100.0, segments: 2)], at_nm: (180.0, 0.0, 400.0)),
             ],
             crosslinkers: [Crosslinkers(count: 3, stiffness_pn_per_nm: 0.2, rest_length_nm: 20.0, reach_nm: 20.0,
                 attach_per_ns: 1e-4, bind_per_ns: 1e-4, unbinds: Breaking(rate_per_ns: 1e-7), seed: 8)],

@@ -25,6 +25,4 @@ pub(crate) use ribbon::{from_rest, writhe_of};
 pub use section_loads::SectionLoad;
 pub(crate) use section_loads::{Resultants, SectionLoads};
 pub(crate) use twist::twist;
-#[cfg(test)]
-pub(crate) use writhe::closed_writhe;
 pub(crate) use writhe::extended_writhe;

@@ -219,25 +219,6 @@ mod tests {
         }
     }
 
-    /// Uniform bending and twist is uniform in every model, including junctions and walls.
-    #[test]
-    fn an_even_curve_is_even_in_every_model() {
-        let rate = Vector3::new(0.003, -0.004, 0.02);
-        for (sections, clamps) in SECTIONS.iter().flat_map(|s| CLAMPS.map(|c| (s, c))) {
-            let assembly = build(sections, clamps);
-            let mut state = assembly.rest.clone();
-            for (i, info) in assembly.frames.iter().enumerate() {
-                let q = rotation::exp(rate * info.s_nm) * state.frames.orientation.get(i);
-                state.frames.orientation.set(i, q);
-            }
-            for point in profile(&assembly, &state) {
-                // Round-off of rotations over half a rise.
-                assert!((point.curvature_rad_per_nm - 0.005).abs() < 1e-13);
-                assert!((point.twist_rad_per_nm - 0.02).abs() < 1e-13);
-            }
-        }
-    }
-
     #[test]
     fn energy_stands_where_it_is() {
         let assembly = build(SECTIONS[0], "");

@@ -45,7 +45,6 @@ fn transport(from: Vector3, to: Vector3, v: Vector3) -> Vector3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::closed_writhe;
     use actin_mechanics::Xorshift;
     use actin_mechanics::rotation;
 
@@ -74,28 +73,5 @@ mod tests {
         let turns = twist(&sheared, &vec![Vector3::z(); 60]);
         // The smallest rotation removes each tilt exactly.
         assert!((turns - 59.0 * 0.9 / (2.0 * PI)).abs() < 1e-13, "{turns}");
-    }
-
-    /// White's theorem: around a closed polygon twist and writhe add up to a whole number, up to
-    /// the choice of framing.
-    #[test]
-    fn twist_and_writhe_of_a_closed_ribbon_are_a_whole_number() {
-        let mut noise = Xorshift::new(4);
-        for _ in 0..20 {
-            let points: Vec<Vector3> = (0..9).map(|_| noise.vector()).collect();
-            let edge = |i: usize| (points[(i + 1) % 9] - points[i % 9]).normalize();
-            let tangents: Vec<Vector3> = (0..10).map(edge).collect();
-            let mut frames: Vec<UnitQuaternion> = tangents
-                .iter()
-                .map(|t| {
-                    let along = rotation::exp(noise.vector() * 3.0);
-                    UnitQuaternion::rotation_between(&(along * Vector3::z()), t).unwrap() * along
-                })
-                .collect();
-            frames[9] = frames[0];
-            let link = twist(&frames, &tangents) + closed_writhe(&points);
-            // Round-off of about 120 solid angles.
-            assert!((link - link.round()).abs() < 1e-12, "{link}");
-        }
     }
 }

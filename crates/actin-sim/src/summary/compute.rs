@@ -132,67 +132,14 @@ impl From<Residual> for ResidualSummary {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::End;
+
     use crate::summary::fixture;
     use actin_mechanics::Vector3;
-    use actin_mechanics::testing::resultant;
 
     fn last_summary(assembly: &Assembly) -> (Record, Summary) {
         let last = fixture::trajectory(assembly).records.pop().unwrap();
         let summary = Summary::new(assembly, &last, &fixture::outcome());
         (last, summary)
-    }
-
-    /// Internal forces cancel, so the reaction plus the end force equals the sum of forces on the
-    /// free points.
-    #[test]
-    fn reaction_balances_the_end_force_and_the_residual_forces() {
-        for assembly in [fixture::clamped_start(), fixture::clamped_end()] {
-            let (last, summary) = last_summary(&assembly);
-            let loads = fixture::loads(&assembly, &last.state);
-            let points = &last.state.points;
-            let free: Vector3 = (0..points.len())
-                .filter(|&i| points.is_free(i))
-                .map(|i| loads.force.get(i))
-                .sum();
-            let scale: f64 = loads.force.iter().map(|f| f.norm()).sum();
-            let reactions = summary.end_reactions;
-            let reaction = reactions.start.or(reactions.end).unwrap();
-            let end_force = Vector3::new(2.0, -1.0, 0.5);
-            let rest = Vector3::from(reaction.force_pn) + end_force - free;
-            // Round-off of forces that cancel.
-            assert!(rest.norm() <= 1e-12 * scale, "{rest} of {scale}");
-            assert!(Vector3::from(reaction.force_pn).norm() > 1e-3);
-        }
-    }
-
-    /// Torques balance about the clamped point, including couples.
-    #[test]
-    fn reaction_torque_is_about_the_clamped_point() {
-        let assembly = fixture::clamped_start();
-        let (mut last, summary) = last_summary(&assembly);
-        // The random state also moves the clamped bodies.
-        let about = assembly.clamps[0].point_nm(&last.state);
-        for i in 0..last.state.points.len() {
-            last.state.points.position.add(i, -about);
-        }
-        let mut loads = fixture::loads(&assembly, &last.state);
-        for &i in &assembly.clamps[0].points {
-            loads.force.set(i, Vector3::zeros());
-        }
-        for &i in &assembly.clamps[0].frames {
-            loads.torque.set(i, Vector3::zeros());
-        }
-        let (_, free) = resultant(&last.state, &loads);
-        let tip = assembly.tip_nm(&last.state, End::End);
-        let end_torque = tip.cross(&Vector3::new(2.0, -1.0, 0.5));
-        let reaction = summary.end_reactions.start.unwrap();
-        let rest = Vector3::from(reaction.torque_pn_nm) + end_torque - free;
-        let scale: f64 = (0..last.state.points.len())
-            .map(|i| last.state.points.position.get(i).norm() * loads.force.get(i).norm())
-            .sum();
-        // Round-off of torques that cancel.
-        assert!(rest.norm() <= 1e-12 * scale, "{rest} of {scale}");
     }
 
     /// The displacement of the clamped end would be zero.

@@ -1,7 +1,7 @@
 //! Small mixed filaments and synthetic runs for tests of summaries.
 
 use crate::{Assembly, At, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
-use actin_mechanics::{Loads, State};
+use actin_mechanics::State;
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
 /// Monomers at a clamped start, followed by a rod. The title needs XML escapes.
@@ -104,10 +104,6 @@ pub(super) fn trajectory(assembly: &Assembly) -> Trajectory {
 
 pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record {
     Record::new(&assembly.system, At::Time(time_ns), state)
-}
-
-pub(super) fn loads(assembly: &Assembly, state: &State) -> Loads {
-    crate::loads::loads_of(assembly.system.interactions(), state)
 }
 
 pub(super) fn outcome() -> Outcome {

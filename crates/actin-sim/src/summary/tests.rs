@@ -10,71 +10,26 @@ fn summary() -> Summary {
     Summary::new(&assembly, &last, &fixture::outcome())
 }
 
-const KEYS: &[&str] = &[
-    "/scene",
-    "/status",
-    "/counts/monomers",
-    "/counts/bonds",
-    "/counts/segments",
-    "/counts/junctions",
-    "/counts/dofs",
-    "/energy_pn_nm/total",
-    "/energy_pn_nm/potential",
-    "/energy_pn_nm/kinetic",
-    "/energy_pn_nm/elastic",
-    "/energy_pn_nm/bonds",
-    "/energy_pn_nm/rod",
-    "/energy_pn_nm/junction",
-    "/energy_pn_nm/load",
-    "/tip_nm/2",
-    "/tip_displacement_nm/2",
-    "/end_reactions/start/force_pn/2",
-    "/end_reactions/start/torque_pn_nm/2",
-    "/shape/twist_turns",
-    "/shape/writhe",
-    "/shape/link_turns",
-    "/shape/largest_distance_nm",
-    "/filaments/0/counts/monomers",
-    "/filaments/0/tip_nm/2",
-    "/filaments/0/tip_displacement_nm/2",
-    "/filaments/0/end_reactions/start/force_pn/2",
-    "/filaments/0/elastic_pn_nm",
-    "/filaments/0/shape/twist_turns",
-    "/filaments/0/seed",
-    "/notes",
-    "/warnings",
-    "/beyond_range",
-    "/unstable_twist",
-    "/linkers/0/filament",
-    "/linkers/0/to_filament",
-    "/linkers/0/site_nm/2",
-    "/linkers/0/anchor_nm/2",
-    "/linkers/0/force_pn/2",
-    "/linkers/0/extension_nm",
-    "/residual/force_pn",
-    "/residual/torque_pn_nm",
-    "/lowest_stiffness_eigenvalue",
-    "/stability",
-    "/saddles_left",
-    "/work/steps",
-    "/work/force_evaluations",
-    "/work/newton_iterations",
-    "/wall_s",
-    "/version",
-    "/format",
-    "/seed",
-    "/time_ns",
-    "/time_step_ns",
-    "/largest_frequency_rad_per_ns",
-    "/beyond_use",
-    "/saddles_left",
-    "/jumps",
-];
+const KEYS: &str = "
+    /scene /status /counts/monomers /counts/bonds /counts/segments /counts/junctions /counts/dofs
+    /energy_pn_nm/total /energy_pn_nm/potential /energy_pn_nm/kinetic /energy_pn_nm/elastic
+    /energy_pn_nm/bonds /energy_pn_nm/rod /energy_pn_nm/junction /energy_pn_nm/load /tip_nm/2
+    /tip_displacement_nm/2 /end_reactions/start/force_pn/2 /end_reactions/start/torque_pn_nm/2
+    /shape/twist_turns /shape/writhe /shape/link_turns /shape/largest_distance_nm
+    /filaments/0/counts/monomers /filaments/0/tip_nm/2 /filaments/0/tip_displacement_nm/2
+    /filaments/0/end_reactions/start/force_pn/2 /filaments/0/elastic_pn_nm
+    /filaments/0/shape/twist_turns /filaments/0/seed /notes /warnings /beyond_range /unstable_twist
+    /linkers/0/filament /linkers/0/to_filament /linkers/0/site_nm/2 /linkers/0/anchor_nm/2
+    /linkers/0/force_pn/2 /linkers/0/extension_nm /residual/force_pn /residual/torque_pn_nm
+    /lowest_stiffness_eigenvalue /stability /saddles_left /work/steps /work/force_evaluations
+    /work/newton_iterations /wall_s /version /format /seed /time_ns /time_step_ns
+    /largest_frequency_rad_per_ns /beyond_use /jumps
+";
 
 #[test]
 fn keys_are_the_fixed_ones() {
     let json = serde_json::to_value(summary()).unwrap();
-    for path in KEYS {
+    for path in KEYS.split_whitespace() {
         assert!(json.pointer(path).is_some(), "{path} in {json:#}");
     }
     assert_eq!(json["status"], "completed");

@@ -11,7 +11,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// A motion of about a second: monomers, a junction and a rod under a ramped load.
+/// A motion of a second or two: monomers, a junction and a rod under a ramped load.
 pub(crate) const MOTION: &str = "Scene(
     title: \"kept\",
     filament: Filament(
@@ -23,10 +23,10 @@ pub(crate) const MOTION: &str = "Scene(
     ),
     clamps: [Clamp(end: Start)],
     loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
-    path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)], duration_ns: 50.0)],
+    path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)], duration_ns: 25.0)],
     task: Dynamics(
-        duration_ns: 150.0,
-        record_every_ns: 1.5,
+        duration_ns: 75.0,
+        record_every_ns: 0.75,
         drag: (translational_per_ns: 0.01, rotational_per_ns: 0.01),
     ),
 )";
@@ -47,8 +47,8 @@ pub(crate) fn pushed(duration_ns: f64) -> String {
 }
 
 pub(crate) fn short_motion() -> String {
-    let short = MOTION.replace("150.0", "1.0").replace("50.0", "0.5");
-    short.replace("1.5", "0.25")
+    let short = MOTION.replace("75.0", "1.0").replace("25.0", "0.5");
+    short.replace("0.75", "0.25")
 }
 
 /// `MOTION` in a heat bath, with observables and without states.

@@ -5,23 +5,12 @@ use actin_cosserat::{Rigidities, RodLayout, RodMaterial, StraightRod, Walls};
 use actin_mechanics::{State, Vector3};
 use actin_mechanics::{Xorshift, perturb};
 
+#[rustfmt::skip]
 pub(crate) const ALL_WALLS: [Walls; 4] = [
-    Walls {
-        start: false,
-        end: false,
-    },
-    Walls {
-        start: true,
-        end: false,
-    },
-    Walls {
-        start: false,
-        end: true,
-    },
-    Walls {
-        start: true,
-        end: true,
-    },
+    Walls { start: false, end: false },
+    Walls { start: true, end: false },
+    Walls { start: false, end: true },
+    Walls { start: true, end: true },
 ];
 
 pub(crate) fn material() -> RodMaterial {

@@ -1,185 +1,41 @@
-#![allow(
-    clippy::unreadable_literal,
-    clippy::inconsistent_digit_grouping,
-    reason = "numbers stand as NIST prints them, to be compared by eye"
-)]
+use super::problems::{Problem, read};
+use crate::common::{digits, least_digits};
+use actin_fit::{LinearFit, Polynomial, fit_linear};
 
-use crate::common::{self, digits, least_digits};
-use actin_fit::{Data, LinearFit, Mat, Observations, Polynomial, fit_linear};
-
-fn linear_errors(fit: &LinearFit) -> Vec<f64> {
-    (0..fit.parameters.len())
-        .map(|j| fit.precision.standard_error(j).unwrap())
-        .collect()
+fn fit(problem: &Problem) -> LinearFit {
+    let data = problem.data();
+    match problem.name.as_str() {
+        "Longley" => fit_linear(problem.design().as_ref(), data.observations()).unwrap(),
+        "Wampler5" => Polynomial::new(5).fit(&data).unwrap(),
+        _ => Polynomial::new(10).fit(&data).unwrap(),
+    }
 }
 
-#[rustfmt::skip]
-const LONGLEY: [[f64; 7]; 16] = [
-    [60323.0, 83.0, 234289.0, 2356.0, 1590.0, 107608.0, 1947.0],
-    [61122.0, 88.5, 259426.0, 2325.0, 1456.0, 108632.0, 1948.0],
-    [60171.0, 88.2, 258054.0, 3682.0, 1616.0, 109773.0, 1949.0],
-    [61187.0, 89.5, 284599.0, 3351.0, 1650.0, 110929.0, 1950.0],
-    [63221.0, 96.2, 328975.0, 2099.0, 3099.0, 112075.0, 1951.0],
-    [63639.0, 98.1, 346999.0, 1932.0, 3594.0, 113270.0, 1952.0],
-    [64989.0, 99.0, 365385.0, 1870.0, 3547.0, 115094.0, 1953.0],
-    [63761.0, 100.0, 363112.0, 3578.0, 3350.0, 116219.0, 1954.0],
-    [66019.0, 101.2, 397469.0, 2904.0, 3048.0, 117388.0, 1955.0],
-    [67857.0, 104.6, 419180.0, 2822.0, 2857.0, 118734.0, 1956.0],
-    [68169.0, 108.4, 442769.0, 2936.0, 2798.0, 120445.0, 1957.0],
-    [66513.0, 110.8, 444546.0, 4681.0, 2637.0, 121950.0, 1958.0],
-    [68655.0, 112.6, 482704.0, 3813.0, 2552.0, 123366.0, 1959.0],
-    [69564.0, 114.2, 502601.0, 3931.0, 2514.0, 125368.0, 1960.0],
-    [69331.0, 115.7, 518173.0, 4806.0, 2572.0, 127852.0, 1961.0],
-    [70551.0, 116.9, 554894.0, 4007.0, 2827.0, 130081.0, 1962.0],
-];
-
-/// Six collinear regressors: normal equations of the raw columns (condition number 5e9) lose nearly
-/// all digits of the constant.
+/// Longley: six collinear regressors; normal equations of the raw columns (condition number 5e9)
+/// lose nearly all digits of the constant. Wampler5: polynomial of degree 5 with noise of a thousand
+/// times its size and standard errors up to 2e7. Filip: polynomial of degree 10 on [-8.8, -3.1], for
+/// which many programs report a deficient rank.
 #[test]
-fn longley() {
-    let y: Vec<f64> = LONGLEY.iter().map(|row| row[0]).collect();
-    let design = Mat::from_fn(16, 7, |i, j| if j == 0 { 1.0 } else { LONGLEY[i][j] });
-    let fit = fit_linear(design.as_ref(), &Observations::new(&y).unwrap()).unwrap();
-    let certified = [
-        -3482258.63459582,
-        15.0618722713733,
-        -0.0358191792925910,
-        -2.02022980381683,
-        -1.03322686717359,
-        -0.0511041056535807,
-        1829.15146461355,
-    ];
-    let certified_errors = [
-        890420.383607373,
-        84.9149257747669,
-        0.0334910077722432,
-        0.488399681651699,
-        0.214274163161675,
-        0.226073200069370,
-        455.478499142212,
-    ];
-    let got = least_digits(&fit.parameters, &certified);
-    let got_errors = least_digits(&linear_errors(&fit), &certified_errors);
-    let got_sum = digits(fit.goodness.chi_squared, 836424.055505915);
-    println!(
-        "Longley {got:.1} {got_errors:.1} {got_sum:.1} condition {:.1e}",
-        fit.precision.condition
-    );
-    assert!(got > 9.0 && got_errors > 9.0 && got_sum > 9.0);
-}
-
-const WAMPLER_5: [f64; 21] = [
-    7590001.0,
-    -20479994.0,
-    20480063.0,
-    -20479636.0,
-    25231365.0,
-    -20476094.0,
-    20489331.0,
-    -20460392.0,
-    18417449.0,
-    -20413570.0,
-    20591111.0,
-    -20302844.0,
-    18651453.0,
-    -20077766.0,
-    21059195.0,
-    -19666384.0,
-    26348481.0,
-    -18971402.0,
-    22480719.0,
-    -17866340.0,
-    10958421.0,
-];
-
-/// Polynomial of degree 5 with noise of a thousand times its size. All coefficients are 1, with
-/// standard errors up to 2e7.
-#[test]
-fn wampler_5() {
-    let x = common::places(0.0, 20.0, 21);
-    let data = Data::new(&x, Observations::new(&WAMPLER_5).unwrap()).unwrap();
-    let fit = Polynomial::new(5).fit(&data).unwrap();
-    let certified_errors = [
-        21523262.4678170,
-        23635517.3469681,
-        7793435.24331583,
-        1014755.07550350,
-        56456.6512170752,
-        1123.24854679312,
-    ];
-    let got = least_digits(&fit.parameters, &[1.0; 6]);
-    let got_errors = least_digits(&linear_errors(&fit), &certified_errors);
-    println!(
-        "Wampler5 {got:.1} {got_errors:.1} condition {:.1e}",
-        fit.precision.condition
-    );
-    assert!(got > 5.0 && got_errors > 9.0);
-}
-
-#[rustfmt::skip]
-const FILIP: [[f64; 2]; 82] = [
-    [-6.860120914, 0.8116], [-4.324130045, 0.9072], [-4.358625055, 0.9052], [-4.358426747, 0.9039],
-    [-6.955852379, 0.8053], [-6.661145254, 0.8377], [-6.355462942, 0.8667], [-6.118102026, 0.8809],
-    [-7.115148017, 0.7975], [-6.815308569, 0.8162], [-6.519993057, 0.8515], [-6.204119983, 0.8766],
-    [-5.853871964, 0.8885], [-6.109523091, 0.8859], [-5.79832982, 0.8959], [-5.482672118, 0.8913],
-    [-5.171791386, 0.8959], [-4.851705903, 0.8971], [-4.517126416, 0.9021], [-4.143573228, 0.909],
-    [-3.709075441, 0.9139], [-3.499489089, 0.9199], [-6.300769497, 0.8692], [-5.953504836, 0.8872],
-    [-5.642065153, 0.89], [-5.031376979, 0.891], [-4.680685696, 0.8977], [-4.329846955, 0.9035],
-    [-3.928486195, 0.9078], [-8.56735134, 0.7675], [-8.363211311, 0.7705], [-8.107682739, 0.7713],
-    [-7.823908741, 0.7736], [-7.522878745, 0.7775], [-7.218819279, 0.7841], [-6.920818754, 0.7971],
-    [-6.628932138, 0.8329], [-6.323946875, 0.8641], [-5.991399828, 0.8804], [-8.781464495, 0.7668],
-    [-8.663140179, 0.7633], [-8.473531488, 0.7678], [-8.247337057, 0.7697], [-7.971428747, 0.77],
-    [-7.676129393, 0.7749], [-7.352812702, 0.7796], [-7.072065318, 0.7897], [-6.774174009, 0.8131],
-    [-6.478861916, 0.8498], [-6.159517513, 0.8741], [-6.835647144, 0.8061], [-6.53165267, 0.846],
-    [-6.224098421, 0.8751], [-5.910094889, 0.8856], [-5.598599459, 0.8919], [-5.290645224, 0.8934],
-    [-4.974284616, 0.894], [-4.64454848, 0.8957], [-4.290560426, 0.9047], [-3.885055584, 0.9129],
-    [-3.408378962, 0.9209], [-3.13200249, 0.9219], [-8.726767166, 0.7739], [-8.66695597, 0.7681],
-    [-8.511026475, 0.7665], [-8.165388579, 0.7703], [-7.886056648, 0.7702], [-7.588043762, 0.7761],
-    [-7.283412422, 0.7809], [-6.995678626, 0.7961], [-6.691862621, 0.8253], [-6.392544977, 0.8602],
-    [-6.067374056, 0.8809], [-6.684029655, 0.8301], [-6.378719832, 0.8664], [-6.065855188, 0.8834],
-    [-5.752272167, 0.8898], [-5.132414673, 0.8964], [-4.811352704, 0.8963], [-4.098269308, 0.9074],
-    [-3.66174277, 0.9119], [-3.2644011, 0.9228],
-];
-
-/// Polynomial of degree 10 on [-8.8, -3.1], the hardest of the linear problems. Many programs
-/// report a deficient rank.
-#[test]
-fn filip() {
-    let x: Vec<f64> = FILIP.iter().map(|row| row[0]).collect();
-    let y: Vec<f64> = FILIP.iter().map(|row| row[1]).collect();
-    let data = Data::new(&x, Observations::new(&y).unwrap()).unwrap();
-    let fit = Polynomial::new(10).fit(&data).unwrap();
-    let certified = [
-        -1467.48961422980,
-        -2772.17959193342,
-        -2316.37108160893,
-        -1127.97394098372,
-        -354.478233703349,
-        -75.1242017393757,
-        -10.8753180355343,
-        -1.06221498588947,
-        -0.0670191154593408,
-        -0.00246781078275479,
-        -0.0000402962525080404,
-    ];
-    let certified_errors = [
-        298.084530995537,
-        559.779865474950,
-        466.477572127796,
-        227.204274477751,
-        71.6478660875927,
-        15.2897178747400,
-        2.23691159816033,
-        0.221624321934227,
-        0.0142363763154724,
-        0.000535617408889821,
-        0.00000896632837373868,
-    ];
-    let got = least_digits(&fit.parameters, &certified);
-    let got_errors = least_digits(&linear_errors(&fit), &certified_errors);
-    println!(
-        "Filip {got:.1} {got_errors:.1} condition {:.1e}",
-        fit.precision.condition
-    );
-    assert!(got > 5.0 && got_errors > 5.0);
+fn certified_values_of_linear_problems() {
+    for problem in read(include_str!("linear.txt")) {
+        let least = match problem.name.as_str() {
+            "Longley" => [9.0, 9.0],
+            "Wampler5" => [5.0, 9.0],
+            _ => [5.0, 5.0],
+        };
+        let fit = fit(&problem);
+        let error = |j| fit.precision.standard_error(j).unwrap();
+        let errors: Vec<f64> = (0..fit.parameters.len()).map(error).collect();
+        let got = [
+            least_digits(&fit.parameters, &problem.parameters),
+            least_digits(&errors, &problem.errors),
+        ];
+        let condition = fit.precision.condition;
+        println!("{} {got:.1?} condition {condition:.1e}", problem.name);
+        let is_met = got.iter().zip(least).all(|(got, least)| *got > least);
+        assert!(is_met, "{}: {got:?}", problem.name);
+        if problem.sum_of_squares > 0.0 {
+            assert!(digits(fit.goodness.chi_squared, problem.sum_of_squares) > 9.0);
+        }
+    }
 }

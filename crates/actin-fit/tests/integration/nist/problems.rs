@@ -1,11 +1,13 @@
 use super::dual::{Dual, variables};
-use actin_fit::{Data, Model, Observations};
+use actin_fit::{Data, Mat, Model, Observations};
 use std::f64::consts::PI;
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Problem {
     pub(crate) name: String,
     pub(crate) starts: Vec<Vec<f64>>,
+    /// Measured linearisations and evaluations from each start.
+    pub(crate) work: Vec<[usize; 2]>,
     pub(crate) parameters: Vec<f64>,
     pub(crate) errors: Vec<f64>,
     pub(crate) sum_of_squares: f64,
@@ -13,8 +15,12 @@ pub(crate) struct Problem {
 }
 
 pub(crate) fn all() -> Vec<Problem> {
+    read(include_str!("problems.txt"))
+}
+
+pub(crate) fn read(text: &str) -> Vec<Problem> {
     let mut problems: Vec<Problem> = Vec::new();
-    for line in include_str!("problems.txt").lines() {
+    for line in text.lines() {
         let mut words = line.split_whitespace();
         let first = words.next().unwrap_or("#");
         let numbers = |words: std::str::SplitWhitespace<'_>| -> Vec<f64> {
@@ -27,6 +33,11 @@ pub(crate) fn all() -> Vec<Problem> {
                 ..Problem::default()
             }),
             ("start", Some(problem)) => problem.starts.push(numbers(words)),
+            ("work", Some(problem)) => {
+                let counts = words.map(|word| word.parse().unwrap());
+                let counts: Vec<usize> = counts.collect();
+                problem.work.push(counts.try_into().unwrap());
+            }
             ("certified", Some(problem)) => problem.parameters = numbers(words),
             ("errors", Some(problem)) => problem.errors = numbers(words),
             ("sum", Some(problem)) => problem.sum_of_squares = numbers(words)[0],
@@ -47,6 +58,12 @@ impl Problem {
         let x: Vec<f64> = self.rows.iter().flat_map(|row| row[1..].to_vec()).collect();
         let width = self.rows[0].len() - 1;
         Data::from_rows(width, &x, Observations::new(&y).unwrap()).unwrap()
+    }
+
+    /// Columns of a model that is linear in the predictors, after a constant.
+    pub(crate) fn design(&self) -> Mat<f64> {
+        let entry = |i: usize, j: usize| if j == 0 { 1.0 } else { self.rows[i][j] };
+        Mat::from_fn(self.rows.len(), self.parameters.len(), entry)
     }
 }
 
