@@ -66,10 +66,12 @@ impl Piece {
 }
 
 impl Curve {
-    /// Creates the curve of a filament whose sections start at these arc lengths (nm).
+    /// Creates the curve of a filament whose sections start at these arc lengths (nm). Fewer than two points, which
+    /// are refused, count as a straight line.
     pub fn new(filament: &Filament, boundaries: &[f64]) -> Self {
         let curve = match &filament.shape {
-            None => Self::from_pieces(vec![Piece::straight()]),
+            Some(Shape::Points { nm, .. }) if nm.len() > 1 => Self::through(nm),
+            None | Some(Shape::Points { .. }) => Self::from_pieces(vec![Piece::straight()]),
             Some(Shape::Arc {
                 radius_nm,
                 azimuth_deg,
@@ -82,7 +84,6 @@ impl Curve {
                 pitch_nm,
                 azimuth_deg,
             }) => Self::from_pieces(vec![helix(*radius_nm, *pitch_nm, *azimuth_deg)]),
-            Some(Shape::Points { nm, .. }) => Self::through(nm),
             Some(Shape::AtRest) => return Self::at_rest(filament, boundaries),
         };
         curve.rolled(filament, boundaries)

@@ -4,30 +4,11 @@ use super::deserialize::deserialize;
 use super::position::{line_and_column, without_mark};
 use super::text::SCENE_DEPTH;
 use super::tree::print;
-use super::{RodLaw, RodLaws, Scene, SceneError, SceneProblem, SceneText, SceneValue};
+use super::{ParseReport, RodLaw, RodLaws, Scene, SceneError, SceneProblem, SceneText, SceneValue};
 use super::{scene_file::SceneFile, serialize, trace, validate::validate};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::Path;
-
-/// Value of a text, and all mistakes in it.
-#[derive(Clone, Debug)]
-pub struct ParseReport<T> {
-    /// Value without unknown keys; `None` if it cannot be determined.
-    pub value: Option<T>,
-    /// Independent mistakes in the order of the text.
-    pub mistakes: Vec<SceneError>,
-}
-
-impl<T> ParseReport<T> {
-    pub(super) fn into_result(self) -> Result<T, SceneError> {
-        match (self.value, self.mistakes.into_iter().next()) {
-            (Some(value), None) => Ok(value),
-            (_, Some(mistake)) => Err(mistake),
-            (None, None) => unreachable!("a text without a value has a mistake"),
-        }
-    }
-}
 
 impl RodLaws {
     /// Returns the laws as RON, as written after `law:` in a scene.

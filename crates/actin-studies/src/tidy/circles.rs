@@ -19,9 +19,8 @@ const REMAINING: [(&str, &str); 2] = [
     (
         "crates/actin-scene/src",
         "adaptive_resolution arrangement bead brownian crosslinkers curve drag factor flow imperfection \
-         kinetics linker linkers_between load load_rules magnitude observable path periodic place \
-         repulsion rules saddles scene_file section_rules sections shape stage support thermal types \
-         validate",
+         kinetics linker linkers_between load load_rules numbers observable path periodic place repulsion \
+         rest rules scene_file section_rules sections shape stage support thermal types validate",
     ),
 ];
 
