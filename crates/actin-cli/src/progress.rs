@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 const TICKS: u64 = 1000;
 
 /// Time between lines of progress where there is no bar.
-const BETWEEN_LINES: Duration = Duration::from_secs(60);
+const BETWEEN_LINES: Duration = Duration::from_mins(1);
 
 pub(crate) struct Progress {
     bar: ProgressBar,
