@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 /// Resolution of the bar: thousandths of the duration.
 const TICKS: u64 = 1000;
 
-/// Time between lines of progress where there is no bar.
+/// Time between lines of progress without a bar.
 const BETWEEN_LINES: Duration = Duration::from_mins(1);
 
 pub(crate) struct Progress {

@@ -46,7 +46,7 @@ pub struct StrainRange {
     pub shear: f64,
     /// Stretch relative to the natural length at the twist, in compression and in tension.
     pub stretch: [f64; 2],
-    /// Whether `stretch` is relative to the length without tension at the curvature and shear too.
+    /// True if `stretch` refers to the length without tension at this curvature and shear.
     pub is_tension_free: bool,
 }
 
