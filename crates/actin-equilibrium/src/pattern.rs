@@ -160,15 +160,13 @@ fn prefers_gradients(
     whole: &[Vec<usize>],
     chains: &[Vec<usize>],
     layout: &Layout,
-    direct: usize,
+    direct: f64,
 ) -> bool {
-    let whole = upper_triangle(whole, layout);
-    let chains = upper_triangle(chains, layout);
-    let entries = whole.row_idx().len() + chains.row_idx().len();
-    let iterative = factor_operations(chains.as_ref()) + 2 * ITERATIONS * entries;
+    let [all, own] = [whole, chains].map(|neighbours| entries(neighbours, layout));
+    let iterative = factor_operations(chains, layout) + (2 * ITERATIONS * (all + own)) as f64;
     // Measured: iterations are worth it up to this ratio, since they solve for unsolved filaments only.
     // Without links at present, the direct method would fail later.
-    iterative < 12 * direct || whole.row_idx().len() == chains.row_idx().len()
+    iterative < 12.0 * direct || all == own
 }
 
 /// Fixes the order; returns the couplings in the new order.
@@ -180,12 +178,12 @@ fn settle(
     let mut sought = layout.clone();
     sought.reorder(&minimum_degree(&present));
     let reordered = neighbours(stiffness.all(), &sought);
-    let cost = |neighbours: &[Vec<usize>], layout: &Layout| {
-        factor_operations(upper_triangle(neighbours, layout).as_ref())
-    };
     if layout.order() == Order::Compared {
-        let costs = [cost(&present, layout), cost(&reordered, &sought)];
-        let least = costs[0].min(costs[1]);
+        let costs = [
+            factor_operations(&present, layout),
+            factor_operations(&reordered, &sought),
+        ];
+        let least = f64::min(costs[0], costs[1]);
         let is_iterative = match layout.gradient_use() {
             GradientUse::Never => false,
             GradientUse::IfCheaper => prefers_gradients(&present, chains, layout, least),
@@ -306,14 +304,30 @@ fn running_sum(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     sums
 }
 
-/// Half the sum of the squared column counts of the factor.
-fn factor_operations(upper: SymbolicSparseColMatRef<'_, usize>) -> usize {
-    let n = upper.ncols();
+/// Number of entries of the upper triangle.
+fn entries(neighbours: &[Vec<usize>], layout: &Layout) -> usize {
+    let size = |node: usize| layout.range(node).len();
+    let columns = neighbours.iter().enumerate().map(|(node, above)| {
+        let rows: usize = above.iter().map(|&row| size(row)).sum();
+        size(node) * rows + size(node) * (size(node) + 1) / 2
+    });
+    columns.sum()
+}
+
+/// Half the sum of the squared column counts of the factor, from the counts of nodes and their mean
+/// size: with all coordinates, the counts would take nine times as long.
+fn factor_operations(neighbours: &[Vec<usize>], layout: &Layout) -> f64 {
+    let n = neighbours.len();
+    let columns = running_sum(neighbours.iter().map(Vec::len));
+    let rows = neighbours.concat();
+    let upper = SymbolicSparseColMatRef::new_checked(n, n, &columns, None, &rows);
     let (mut tree, mut counts) = (vec![0isize; n], vec![0usize; n]);
-    let scratch =
-        simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(n, upper.row_idx().len());
+    let scratch = simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(n, rows.len());
     let mut memory = MemBuffer::new(scratch);
     let stack = MemStack::new(&mut memory);
     simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, upper, stack);
-    counts.iter().map(|count| count * count).sum::<usize>() / 2
+    let sizes = (0..n).map(|node| layout.range(node).len());
+    let size = sizes.sum::<usize>() as f64 / n.max(1) as f64;
+    let squares = counts.iter().map(|&count| (count as f64).powi(2));
+    0.5 * size.powi(3) * squares.sum::<f64>()
 }
