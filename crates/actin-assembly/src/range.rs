@@ -21,7 +21,7 @@ pub struct LawExtrapolation {
     pub filament: usize,
     /// Index of the section in its filament.
     pub section: usize,
-    /// `twist`, `curvature`, `shear`, or `stretch` beyond the natural length.
+    /// `twist`, `curvature`, `shear`, or `stretch` relative to the length that the data refer to.
     pub quantity: String,
     /// Arc length of the largest value (nm, at rest).
     pub s_nm: f64,
@@ -108,7 +108,7 @@ impl Serialize for LawExtrapolation {
     }
 }
 
-/// Largest errors of cantilevers of 62 to 303 nm under transverse tip forces of 1 to 10 pN, in five
+/// Largest errors of cantilevers of 62 to 303 nm under transverse tip forces of 1 to 10 pN, in up to five
 /// groups per quantity.
 ///
 /// # Source

@@ -32,8 +32,8 @@ use terms::{BY_TWIST, InvariantJet, Invariants, Jet, TermSum, Variables, values}
 /// (pN nm) and forces (pN), body axes.
 type SixVector = Vector6<f64>;
 
-/// Search for the stretch without tension: number of steps, largest step, last step, and lower bound
-/// of the stiffness (pN).
+/// Search for the stretch without tension: number of steps, largest step and tolerance (stretch), and
+/// lower bound of the stiffness (pN).
 const FREE_STEPS: usize = 30;
 const LARGEST_FREE_STEP: f64 = 2e-3;
 const FREE_TOLERANCE: f64 = 1e-7;
