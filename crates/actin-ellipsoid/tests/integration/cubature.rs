@@ -62,3 +62,51 @@ fn twelve_quadrature_bonds_have_the_energy_of_many_sampled_bonds() {
         assert!(weighted < 0.1 * drawn, "{kind}: {weighted} {drawn}");
     }
 }
+
+/// Energies in closed form from averages over the bonds: `(p + s^2 / 2L)^2 / 2`, 31 averages, and
+/// with all terms of degree four, 46 averages. The bonds are those of [`energy`], sheared by `s` and
+/// extended by `p`.
+fn energies_from_averages(interface: &Interface, shift: Vector3, turn: Vector3) -> [f64; 2] {
+    let Neighbour {
+        rotation: rest,
+        offset,
+    } = interface.neighbour;
+    let turn = rotation::exp(turn);
+    let of_bond = |bond: &Bond| {
+        let arm = rest * bond.upper + 0.5 * offset;
+        let axis = (rest * bond.upper + offset - bond.lower).normalize();
+        let end = 0.5 * offset + turn * arm + shift - bond.lower;
+        let (length, p) = (bond.rest_length, end.dot(&axis) - bond.rest_length);
+        let shear = (end - axis * end.dot(&axis)).norm_squared() / length;
+        let stretch = p + 0.5 * shear;
+        let higher = -0.5 * p * shear / length - 0.125 * shear * shear / length;
+        let energy = 0.5 * bond.weight * stretch * stretch;
+        [energy, energy + bond.weight * p * higher]
+    };
+    let add = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a + c, b + d];
+    interface.bonds.iter().map(of_bond).fold([0.0; 2], add)
+}
+
+/// An interaction of one term per interface, without bonds, is less accurate where heat moves the
+/// monomers.
+#[test]
+fn twelve_bonds_are_more_accurate_than_averages() {
+    for kind in InterfaceKind::ALL {
+        let bonds = interface(kind, Anchors::Cubature, 12);
+        for reach in [0.03, 0.1, 0.3] {
+            let mut noise = Xorshift::new(4);
+            let mut squares = [0.0; 2];
+            for _ in 0..100 {
+                let (shift, turn) = (noise.vector() * reach, noise.vector() * reach / 6.0);
+                let expected = energy(&bonds, shift, turn);
+                let found = energies_from_averages(&bonds, shift, turn);
+                for (square, found) in squares.iter_mut().zip(found) {
+                    *square += (found / expected - 1.0).powi(2) / 100.0;
+                }
+            }
+            let errors = squares.map(f64::sqrt);
+            println!("{kind}, {reach} nm, {:.3} rad: {errors:.3?}", reach / 6.0);
+            assert!(reach < 0.3 || errors.into_iter().all(|error| error > 0.05));
+        }
+    }
+}
