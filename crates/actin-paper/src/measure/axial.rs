@@ -40,12 +40,7 @@ pub struct TwistPoint {
 /// # Source
 /// arXiv 2203.01284, Appendix B, Tables 3 and 5.
 pub fn twist(specimen: &Specimen, turns_deg: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
-    let protocol = Protocol {
-        specimen,
-        title: "Twist",
-        far_end: Some(FreeTranslation::AlongAxis),
-        force: None,
-    };
+    let protocol = Protocol::new(specimen, Some(FreeTranslation::AlongAxis), None);
     let settings = |deg: f64| vec![turn(End::End, [0.0, 0.0, deg])];
     protocol.sweep("turn_deg", turns_deg, settings, read_twist)
 }
@@ -92,12 +87,11 @@ pub fn stretch_by_force(
     specimen: &Specimen,
     forces_pn: &[f64],
 ) -> Result<Curve<StretchPoint>, MeasureError> {
-    let protocol = Protocol {
+    let protocol = Protocol::new(
         specimen,
-        title: "Stretch by force",
-        far_end: Some(FreeTranslation::AlongAxis),
-        force: Some(Vector3::z()),
-    };
+        Some(FreeTranslation::AlongAxis),
+        Some(Vector3::z()),
+    );
     protocol.sweep("force_pn", forces_pn, |pn| vec![force(pn)], read_stretch)
 }
 
@@ -112,12 +106,7 @@ pub fn stretch_by_shift(
     specimen: &Specimen,
     strains: &[f64],
 ) -> Result<Curve<StretchPoint>, MeasureError> {
-    let protocol = Protocol {
-        specimen,
-        title: "Stretch by shift",
-        far_end: Some(FreeTranslation::Nowhere),
-        force: None,
-    };
+    let protocol = Protocol::new(specimen, Some(FreeTranslation::Nowhere), None);
     let length = protocol.length_nm()?;
     let settings = |strain: f64| vec![shift(End::End, strain * length)];
     protocol.sweep("strain", strains, settings, |assembly, _, stop| {
@@ -188,15 +177,9 @@ pub fn free_turn_under_tension(
     forces_pn: &[f64],
 ) -> Result<Curve<PulledTwistPoint>, MeasureError> {
     check("force_pn", forces_pn)?;
-    let mut all = Curve {
-        length_nm: 0.0,
-        points: Vec::new(),
-        unreached: Vec::new(),
-    };
+    let mut all = Curve::empty();
     for &force_pn in forces_pn {
-        let curve = free_turn(specimen, force_pn)?;
-        all.length_nm = curve.length_nm;
-        all.append(curve);
+        all.append(free_turn(specimen, force_pn)?);
     }
     Ok(all)
 }
@@ -287,12 +270,11 @@ fn held(
 }
 
 fn pulled(specimen: &Specimen) -> Protocol<'_> {
-    Protocol {
+    Protocol::new(
         specimen,
-        title: "Twist under tension",
-        far_end: Some(FreeTranslation::AlongAxis),
-        force: Some(Vector3::z()),
-    }
+        Some(FreeTranslation::AlongAxis),
+        Some(Vector3::z()),
+    )
 }
 
 /// Axial force (pN) and turn (deg) of the far end.
