@@ -38,6 +38,7 @@ fn cases(rises: f64) -> [(&'static str, Case); 6] {
     let turns_deg = vec![-120.0, -40.0, -10.0, 10.0, 40.0, 120.0];
     let twisted = Loading::Twisted { turns_deg };
     let cantilever = (None, 0.0, &[0.5][..]);
+    let pulled = (Some(FreeTranslation::AlongAxis), 0.0, &[10.0][..]);
     [
         ("guided, no tension", guided(0.0)),
         ("guided, 5 pN", guided(5.0)),
@@ -48,7 +49,7 @@ fn cases(rises: f64) -> [(&'static str, Case); 6] {
         ),
         (
             "pulled",
-            Case::stretched(Group::Beside, name("pulled"), rises, (0.0, &[10.0])),
+            Case::forces(Group::Beside, name("pulled"), rises, pulled),
         ),
         (
             "cantilever",

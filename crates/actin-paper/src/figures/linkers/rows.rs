@@ -2,7 +2,7 @@
 
 use super::Figure;
 use super::solve::{Balance, Motion, Outcome, SAME_PN_NM};
-use crate::figures::draft::{Column, Draft, number, residuals};
+use crate::figures::draft::{Column, Draft, number, residuals, text};
 use crate::figures::expected::Holds;
 use crate::figures::model::{Model, models};
 use crate::figures::motion::energy_decays;
@@ -261,7 +261,7 @@ const COLUMNS: [Column<Outcome>; 13] = [
     ("linkers_pn_nm", |o| number(o.lowest.linkers)),
     ("stable", |o| o.lowest.is_stable.to_string()),
     ("lowest_eigenvalue_pn_per_nm", |o| {
-        o.lowest.lowest.map_or(String::new(), number)
+        text(o.lowest.lowest.map(number))
     }),
     ("newton_iterations", |o| o.lowest.iterations.to_string()),
     ("roll_deg", |o| format!("{:.3}", o.lowest.roll)),
@@ -281,7 +281,7 @@ const COLUMNS: [Column<Outcome>; 13] = [
 ];
 
 fn of_motion(outcome: &Outcome, cell: fn(&Motion) -> String) -> String {
-    outcome.motion.as_ref().map_or(String::new(), cell)
+    text(outcome.motion.as_ref().map(cell))
 }
 
 pub(super) fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {

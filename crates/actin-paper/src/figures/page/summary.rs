@@ -40,12 +40,6 @@ pub(super) fn words(artefacts: &[Artefact]) -> Markup {
     }
 }
 
-pub(super) fn how_to_read(page: &mut Page<'_>) -> Markup {
-    let stops = palette::chosen().ramp().stops().iter();
-    let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
-    reading(&stops)
-}
-
 pub(super) fn verdicts(artefacts: &[Artefact]) -> Markup {
     html! {
         (score(artefacts))
@@ -72,7 +66,9 @@ fn judged(artefacts: &[Artefact]) -> Markup {
     }
 }
 
-fn reading(stops: &[String]) -> Markup {
+pub(super) fn how_to_read(page: &mut Page<'_>) -> Markup {
+    let stops = palette::chosen().ramp().stops().iter();
+    let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
     let ramp = format!("background:linear-gradient(to right,{})", stops.join(","));
     html! {
         p {

@@ -1,7 +1,7 @@
 //! Twisted filaments with many bond samplings for Tables 3 and 5.
 
 use crate::figures::draft::Draft;
-use crate::measure::{Curve, MeasureError, Specimen, Stability, TwistPoint, twist};
+use crate::measure::{Curve, Specimen, Stability, TwistPoint, twist};
 use crate::published::{Entry, Table, entries};
 use crate::statistics::{SampleStatistics, sample};
 use actin_sim::{Anchors, Monomers, ellipsoid_constants as monomer};
@@ -53,10 +53,10 @@ impl Kind {
         }
     }
 
-    fn twist(&self, seed: u64, turns: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
+    /// Filament with this number of rises between the inner clamped monomers.
+    pub(super) fn specimen(&self, rises: f64, seed: u64) -> Specimen {
         let monomers = self.monomers(seed);
-        let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
-        twist(&specimen, turns)
+        Specimen::ellipsoids(rises * monomers.rise_nm, monomers)
     }
 
     pub(super) fn monomers(&self, seed: u64) -> Monomers {
@@ -128,11 +128,10 @@ impl Ensemble {
         let kinds = kinds.into_iter();
         let cases = kinds.flat_map(|kind| kind.seeds(seeds).map(move |seed| (kind, seed)));
         let samplings = draft.solve(&cases.collect::<Vec<_>>(), |&(kind, seed)| {
-            let curve = kind.twist(seed, &turns);
+            let curve = twist(&kind.specimen(RISES, seed), &turns);
             let curve = curve.map_err(|e| format!("{}, seed {seed}: {e}", kind.name()))?;
             Ok(Sampling { kind, seed, curve })
-        });
-        let samplings = samplings.into_iter().collect::<Result<_, String>>()?;
+        })?;
         Ok(Self { samplings, seeds })
     }
 

@@ -120,10 +120,9 @@ fn measure(draft: &Draft<'_>, kind: Kind) -> Result<Readings, String> {
         let found =
             azimuth.map_or_else(|| stretch(kind, seed), |azimuth| bend(kind, seed, azimuth));
         found.map_err(|e| e.to_string())
-    });
+    })?;
     let mut readings = Readings::default();
     for one in found {
-        let one: Readings = one?;
         readings.all.extend(one.all);
         readings.unreached += one.unreached;
         readings.mismatch = readings.mismatch.max(one.mismatch);
@@ -133,8 +132,7 @@ fn measure(draft: &Draft<'_>, kind: Kind) -> Result<Readings, String> {
 }
 
 fn stretch(kind: Kind, seed: u64) -> Result<Readings, MeasureError> {
-    let monomers = kind.monomers(seed);
-    let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
+    let specimen = kind.specimen(RISES, seed);
     let mut readings = Readings::default();
     let curve = stretch_by_force(&specimen, &FORCES_PN)?;
     let of = (Protocol::StretchByForce, seed, 0.0);
@@ -146,8 +144,7 @@ fn stretch(kind: Kind, seed: u64) -> Result<Readings, MeasureError> {
 }
 
 fn bend(kind: Kind, seed: u64, azimuth: f64) -> Result<Readings, MeasureError> {
-    let monomers = kind.monomers(seed);
-    let specimen = Specimen::ellipsoids(BENT_RISES * monomers.rise_nm, monomers);
+    let specimen = kind.specimen(BENT_RISES, seed);
     let cantilever = Specimen::ellipsoids(CANTILEVER_NM, kind.monomers(seed));
     let of = |protocol| (protocol, seed, azimuth);
     let mut readings = Readings::default();
