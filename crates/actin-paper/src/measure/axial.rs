@@ -184,72 +184,45 @@ pub fn free_turn_under_tension(
     Ok(all)
 }
 
+/// Brackets the zero of the torque from turn 0 by growing steps, then applies false position with
+/// halved weight of a retained end (Illinois algorithm).
 fn free_turn(specimen: &Specimen, force_pn: f64) -> Result<Curve<PulledTwistPoint>, MeasureError> {
     let mut curve = held(specimen, force_pn, 0.0)?;
     let Some(blocked) = curve.points.first().map(couple) else {
         return Ok(curve);
     };
-    let mut search = Search::new(blocked);
-    let (mut turn, mut left) = (0.0, blocked);
+    // Turn (deg) and torque (pN nm) on both sides of the zero; the second one is the latest.
+    let (mut from, mut to) = ((0.0, blocked), None::<(f64, f64)>);
+    let mut here = from;
+    let mut turn = -FIRST_STEP_DEG * blocked.signum();
     for _ in 0..TRIALS {
-        turn = search.trial_deg();
         curve = held(specimen, force_pn, turn)?;
-        left = match curve.points.first().map(couple) {
+        let left = match curve.points.first().map(couple) {
             Some(left) if left.abs() > COUPLE_LEFT * blocked.abs() => left,
             _ => return Ok(curve),
         };
-        search.narrow(turn, left);
+        here = (turn, left);
+        let is_before_zero = to.is_none() && left * from.1 > 0.0;
+        match to {
+            Some(last) if left * last.1 < 0.0 => from = last,
+            Some(_) => from.1 *= 0.5,
+            None if is_before_zero => from = here,
+            None => {}
+        }
+        if is_before_zero {
+            turn *= 2.0;
+        } else {
+            turn -= left * (turn - from.0) / (left - from.1);
+            to = Some(here);
+        }
     }
     curve.points.clear();
     // A torque that jumps across zero has several equilibria and no root.
+    let (turn, left) = here;
     let reason = format!("a torque of {left} pN nm remains at {turn} deg after {TRIALS} trials");
     let value = force_pn;
     curve.unreached.push(MissingEquilibrium { value, reason });
     Ok(curve)
-}
-
-/// Brackets the zero from turn 0 by growing steps against the torque, then applies false position
-/// with halved weight of a retained end (Illinois algorithm).
-struct Search {
-    /// Turn (deg) and torque (pN nm) on the far side of the zero, or nearest to it.
-    from: (f64, f64),
-    /// Turn and torque of the latest trial; without a bracket, the next trial.
-    to: (f64, f64),
-    is_bracket: bool,
-}
-
-impl Search {
-    fn new(blocked: f64) -> Self {
-        Self {
-            from: (0.0, blocked),
-            to: (-FIRST_STEP_DEG * blocked.signum(), blocked),
-            is_bracket: false,
-        }
-    }
-
-    fn trial_deg(&self) -> f64 {
-        let ((from, at_from), (to, at_to)) = (self.from, self.to);
-        if self.is_bracket {
-            to - at_to * (to - from) / (at_to - at_from)
-        } else {
-            to
-        }
-    }
-
-    fn narrow(&mut self, turn: f64, couple: f64) {
-        if !self.is_bracket && couple * self.from.1 > 0.0 {
-            self.from = (turn, couple);
-            self.to.0 = 2.0 * turn;
-            return;
-        }
-        if self.is_bracket && couple * self.to.1 < 0.0 {
-            self.from = self.to;
-        } else if self.is_bracket {
-            self.from.1 *= 0.5;
-        }
-        self.to = (turn, couple);
-        self.is_bracket = true;
-    }
 }
 
 fn couple(point: &PulledTwistPoint) -> f64 {
