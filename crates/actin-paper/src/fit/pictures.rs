@@ -27,7 +27,7 @@ pub(crate) struct UnfittedData<'a> {
     pub dots: bool,
 }
 
-/// One of the two pictures: its column, and the laws. Values are scaled to the unit of the axis.
+/// Picture of a column and its laws. Values are scaled to the unit of the axis.
 struct Panel<'a> {
     file: &'static str,
     title: &'static str,

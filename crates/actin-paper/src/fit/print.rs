@@ -207,16 +207,11 @@ fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published: Option<&[f
 /// The two parameters with the largest correlation.
 fn strongest(precision: &Precision, names: &[&str]) -> String {
     let correlation = precision.correlation();
-    let mut worst = (0.0_f64, 0, 0);
-    for i in 0..names.len() {
-        for j in 0..i {
-            if correlation[(i, j)].abs() > worst.0.abs() {
-                worst = (correlation[(i, j)], i, j);
-            }
-        }
-    }
-    match worst {
-        (0.0, ..) => "none".into(),
-        (value, i, j) => format!("{value:+.3} ({}, {})", names[j], names[i]),
+    let pairs = (0..names.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let size = |pair: &(usize, usize)| correlation[*pair].abs();
+    let strongest = pairs.max_by(|a, b| size(a).total_cmp(&size(b)));
+    match strongest.filter(|pair| size(pair) > 0.0) {
+        Some((i, j)) => format!("{:+.3} ({}, {})", correlation[(i, j)], names[j], names[i]),
+        None => "none".into(),
     }
 }

@@ -98,29 +98,14 @@ pub(super) fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
 fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: &Model) {
     let all = Spread::over_seeds(outcomes, model);
     let (first, words) = (&all[0], &model.words);
+    let (count, energies) = (first.energy.count, first.energies());
+    let energy = format!("(max - min)/mean over {count} mixed resolutions, {energies}");
+    let node = format!("largest between {}", first.farthest);
+    let force = "largest (max - min)/mean of the force of a linker".to_owned();
     let picks: [(&str, &str, Pick, String); 3] = [
-        (
-            "energy_spread",
-            "",
-            |s| s.energy.spread(),
-            format!(
-                "(max - min)/mean over {} mixed resolutions, {}",
-                first.energy.count,
-                first.energies()
-            ),
-        ),
-        (
-            "node_spread",
-            "nm",
-            |s| s.node,
-            format!("largest between {}", first.farthest),
-        ),
-        (
-            "linker_force_spread",
-            "",
-            |s| s.force,
-            "largest (max - min)/mean of the force of a linker".into(),
-        ),
+        ("energy_spread", "", |s| s.energy.spread(), energy),
+        ("node_spread", "nm", |s| s.node, node),
+        ("linker_force_spread", "", |s| s.force, force),
     ];
     for (name, unit, pick, note) in picks {
         let quantity = format!("{name}{}", model.name);
@@ -202,20 +187,13 @@ fn motions(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
 /// Claims that deviations of shape and energy are larger in Figure 6 than in Figure 5. Models of the paper have
 /// verdicts, with energies in pN nm as in Figure 6(c).
 pub(super) fn larger_claims(draft: &mut Draft<'_>, figures: [&[Outcome]; 2]) {
+    let shape = "deviations of shape are more noticeable";
+    let range = "energies vary more (in pN nm)";
+    let spread = "energies vary more (relative to the mean)";
     let claims: [(&str, &str, Pick); 3] = [
-        (
-            "node_spread",
-            "deviations of shape are more noticeable",
-            |s| s.node,
-        ),
-        ("energy_range", "energies vary more (in pN nm)", |s| {
-            s.energy.range()
-        }),
-        (
-            "energy_spread",
-            "energies vary more (relative to the mean)",
-            |s| s.energy.spread(),
-        ),
+        ("node_spread", shape, |s| s.node),
+        ("energy_range", range, |s| s.energy.range()),
+        ("energy_spread", spread, |s| s.energy.spread()),
     ];
     for model in models("linkers", false) {
         let spreads = figures.map(|outcomes| Spread::over_seeds(outcomes, model));

@@ -326,13 +326,10 @@ fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<
     let anisotropy = readings.anisotropy();
     draft.row(format!("{path}b1/anisotropy"), "", anisotropy, note);
     let per_um = 1e-3 / monomer::THERMAL_ENERGY;
+    let unscaled = per_um / monomer::RIGIDITY_SCALE;
     for (name, at, scale) in [
         ("persistence_length_um", BENT, per_um),
-        (
-            "persistence_length_unscaled_um",
-            BENT,
-            per_um / monomer::RIGIDITY_SCALE,
-        ),
+        ("persistence_length_unscaled_um", BENT, unscaled),
         ("persistence_length_um/at-rest", AT_REST, per_um),
     ] {
         let b1 = readings.sample(Protocol::Couples, at);
@@ -376,16 +373,13 @@ fn derived(draft: &mut Draft<'_>) {
     let (young, stretching) = (known("b1") / inertia, known("s3"));
     let b3_mean = 0.5 * (known("b3_min") + known("b3_max"));
     let shear_modulus = YOUNG / (2.0 * (1.0 + POISSON));
+    let shearing = STIFFER * 4.0 / 3.0 * shear_modulus * area;
     for (name, unit, value) in [
         ("young_modulus", "pN/nm^2", young),
         ("s3_over_ea", "", stretching / (young * area)),
         ("b3_mean", "pN nm^2", b3_mean),
         ("printed/ea", "pN", YOUNG * area),
-        (
-            "printed/s1",
-            "pN",
-            STIFFER * 4.0 / 3.0 * shear_modulus * area,
-        ),
+        ("printed/s1", "pN", shearing),
         ("rigidity_scale", "", monomer::RIGIDITY_SCALE),
         ("s_perp", "pN/nm", monomer::LATERAL_RIGIDITY),
         ("s_par", "pN/nm", monomer::LONGITUDINAL_RIGIDITY),
