@@ -119,11 +119,11 @@ impl CommittedReport {
     }
 
     fn read(file: &'static str, command: &'static str) -> Result<Self, String> {
-        let rows = report::read(&workspace_root().join(file))?;
+        let rows = by_name(report::read(&workspace_root().join(file))?);
         Ok(Self {
             file,
             command,
-            rows: by_name(rows),
+            rows,
         })
     }
 
@@ -151,13 +151,8 @@ impl CommittedReport {
     }
 
     fn line(&self, row: &Row, what: &str) -> String {
-        let Row {
-            artefact, quantity, ..
-        } = row;
-        format!(
-            "{artefact}:{quantity} {what}; to accept the change, run: {}",
-            self.command
-        )
+        let (artefact, quantity, command) = (row.artefact, &row.quantity, self.command);
+        format!("{artefact}:{quantity} {what}; to accept the change, run: {command}")
     }
 
     /// Description of a difference in number, expected number or verdict.

@@ -153,6 +153,17 @@ impl SolvedScene {
         })
     }
 
+    /// Runs a scene from rotations of the built filament about its axis by quarters of a turn.
+    pub(crate) fn rolled(scene: &Scene) -> Result<Vec<Self>, String> {
+        let starts_deg = [0.0_f64, 90.0, 180.0, 270.0];
+        let run = |degrees: f64| {
+            let mut assembly = Assembly::build(scene).map_err(|e| e.to_string())?;
+            assembly.roll(degrees.to_radians());
+            Self::run(assembly)
+        };
+        starts_deg.into_iter().map(run).collect()
+    }
+
     pub(crate) fn last(&self) -> &Record {
         &self.records[self.records.len() - 1]
     }

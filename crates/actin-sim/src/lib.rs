@@ -72,7 +72,7 @@ pub use run::{
     RecordSummary, Records, RecordsError, RelaxationTimes, ResolutionSwitch, Row, RunError,
     RunPosition, RunStatistics, SaddlePush, SavedRun, Scatter, Sink, Slip, SolveReport,
     StableState, StableStates, Status, StepError, StoredRecord, Trajectory, composition,
-    near_equilibrium, solver,
+    near_equilibrium, path_options, solver,
 };
 pub use summary::{
     AccuracySummary, EndReaction, EndReactions, EnergySummary, FilamentSummary, FollowingSummary,

@@ -61,7 +61,7 @@ impl<'a> Cache<'a> {
         work: impl FnOnce(&Path) -> Result<(Artefact, u64), String>,
     ) -> Result<CachedArtefact, String> {
         self.remove(id)?;
-        let folder = self.out.join(FOLDER).join(format!("{id}.new"));
+        let folder = self.unfinished(id);
         fs::create_dir_all(&folder).map_err(|e| at(&folder, &e))?;
         let (artefact, runs) = work(&folder)?;
         let cached = CachedArtefact {
@@ -79,6 +79,10 @@ impl<'a> Cache<'a> {
         self.out.join(FOLDER).join(format!("{id}.json"))
     }
 
+    fn unfinished(&self, id: &str) -> PathBuf {
+        self.out.join(FOLDER).join(format!("{id}.new"))
+    }
+
     fn read(&self, id: &str) -> Result<CachedArtefact, String> {
         let path = self.record(id);
         if !path.exists() {
@@ -91,19 +95,16 @@ impl<'a> Cache<'a> {
 
     /// Removes the record, its files and the temporary folder of an interrupted computation.
     fn remove(&self, id: &str) -> Result<(), String> {
-        let old = self.read(id);
-        let (record, unfinished) = (self.record(id), self.out.join(FOLDER));
-        let unfinished = unfinished.join(format!("{id}.new"));
+        let unfinished = self.unfinished(id);
         if unfinished.exists() {
             fs::remove_dir_all(&unfinished).map_err(|e| at(&unfinished, &e))?;
         }
-        if record.exists() {
-            fs::remove_file(&record).map_err(|e| at(&record, &e))?;
-        }
-        let files = old.map_or_else(|_| BTreeMap::new(), |cached| cached.files);
-        let there = files.keys().map(|name| self.out.join(name));
-        for path in there.filter(|path| path.is_file()) {
-            fs::remove_file(&path).map_err(|e| at(&path, &e))?;
+        let old = self.read(id).map(|cached| cached.files).unwrap_or_default();
+        let files = old.keys().map(|name| self.out.join(name));
+        for path in [self.record(id)].into_iter().chain(files) {
+            if path.is_file() {
+                fs::remove_file(&path).map_err(|e| at(&path, &e))?;
+            }
         }
         Ok(())
     }
@@ -114,7 +115,7 @@ impl<'a> Cache<'a> {
         for entry in fs::read_dir(folder).map_err(|e| at(folder, &e))? {
             let path = entry.map_err(|e| at(folder, &e))?.path();
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let bytes = fs::read(&path).map_err(|e| at(&path, &e))?;
+            let bytes = read(&path)?;
             fs::rename(&path, self.out.join(&*name)).map_err(|e| at(&path, &e))?;
             files.insert(name.into_owned(), hash_of(&bytes));
         }
@@ -128,16 +129,16 @@ pub(super) fn fingerprint(choices: &str) -> Result<String, String> {
     env!("CARGO_PKG_VERSION").hash(&mut hasher);
     choices.hash(&mut hasher);
     let program = std::env::current_exe().map_err(|e| e.to_string())?;
-    fs::read(&program)
-        .map_err(|e| at(&program, &e))?
-        .hash(&mut hasher);
+    read(&program)?.hash(&mut hasher);
     for path in scenes()? {
         path.hash(&mut hasher);
-        fs::read(&path)
-            .map_err(|e| at(&path, &e))?
-            .hash(&mut hasher);
+        read(&path)?.hash(&mut hasher);
     }
     Ok(format!("{:016x}", hasher.finish()))
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, String> {
+    fs::read(path).map_err(|e| at(path, &e))
 }
 
 fn scenes() -> Result<Vec<PathBuf>, String> {
@@ -146,11 +147,12 @@ fn scenes() -> Result<Vec<PathBuf>, String> {
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(&folder).map_err(|e| at(&folder, &e))? {
             let path = entry.map_err(|e| at(&folder, &e))?.path();
-            if path.is_dir() {
-                folders.push(path);
+            let list = if path.is_dir() {
+                &mut folders
             } else {
-                all.push(path);
-            }
+                &mut all
+            };
+            list.push(path);
         }
     }
     all.sort();

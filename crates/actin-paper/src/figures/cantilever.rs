@@ -66,8 +66,7 @@ pub(super) fn figure4(draft: &mut Draft<'_>) -> Result<(), String> {
     let outcomes = draft.solve(&cases(quick), |case| {
         let outcome = case.solve(!quick);
         outcome.map_err(|e| format!("{}: {e}", case.path()))
-    });
-    let outcomes: Vec<Outcome> = outcomes.into_iter().collect::<Result<_, _>>()?;
+    })?;
     settings(draft, &outcomes)?;
     rows(draft, &outcomes);
     tables(draft, &outcomes)?;

@@ -4,7 +4,7 @@ use super::expected::{self, Bound, MeasuredRow};
 use super::progress::Progress;
 use super::texts::{self, ChartText, Values};
 use crate::statistics::largest;
-use actin_draw::report::{Artefact, Picture, Row, View, write_csv};
+use actin_draw::report::{Artefact, Origin, Picture, Row, View, write_csv};
 use actin_draw::{Chart, Series};
 use actin_view::{Attitude, Pose, ViewState, states};
 use rayon::prelude::*;
@@ -46,8 +46,17 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// Solves all cases in parallel. Results are in the order of the cases.
+    /// Solves all cases in parallel. Results are in the order of the cases; the first error ends the artefact.
     pub(super) fn solve<C: Sync, R: Send>(
+        &self,
+        cases: &[C],
+        solve: impl Fn(&C) -> Result<R, String> + Sync,
+    ) -> Result<Vec<R>, String> {
+        self.attempt(cases, solve).into_iter().collect()
+    }
+
+    /// Evaluates all cases in parallel. Results are in the order of the cases.
+    pub(super) fn attempt<C: Sync, R: Send>(
         &self,
         cases: &[C],
         solve: impl Fn(&C) -> R + Sync,
@@ -207,19 +216,18 @@ impl<'a> Draft<'a> {
 const ROWS: [Column<Row>; 8] = [
     ("quantity", |row| row.quantity.clone()),
     ("unit", |row| row.unit.to_owned()),
-    ("paper", |row| row.paper.map_or(String::new(), number)),
+    ("paper", |row| text(row.paper.map(number))),
     ("ours", |row| number(row.ours)),
-    ("tolerance", |row| {
-        row.tolerance.map_or(String::new(), number)
-    }),
-    ("pass", |row| {
-        row.pass.map_or(String::new(), |pass| pass.to_string())
-    }),
+    ("tolerance", |row| text(row.tolerance.map(number))),
+    ("pass", |row| text(row.pass)),
     ("note", |row| row.note.clone()),
-    ("origin", |row| {
-        row.origin.map_or(String::new(), |o| o.name().to_owned())
-    }),
+    ("origin", |row| text(row.origin.map(Origin::name))),
 ];
+
+/// Cell of a value that may be missing.
+pub(super) fn text(value: Option<impl ToString>) -> String {
+    value.map_or(String::new(), |value| value.to_string())
+}
 
 pub(super) fn number(x: f64) -> String {
     format!("{x:.9e}")

@@ -1,6 +1,6 @@
 //! Rods compared with filaments of monomers in the load cases of `cargo xtask load-cases`.
 
-use super::draft::{Column, Draft, number};
+use super::draft::{Column, Draft, number, text};
 use super::surface;
 use crate::load_cases;
 use actin_draw::report::{Picture, Row};
@@ -11,11 +11,9 @@ const COLUMNS: [Column<(String, String, Row)>; 5] = [
     ("case", |(case, _, _)| case.clone()),
     ("quantity", |(_, quantity, _)| quantity.clone()),
     ("rod", |(_, _, row)| number(row.ours)),
-    ("monomers", |(_, _, row)| {
-        row.paper.map_or(String::new(), number)
-    }),
-    ("largest_difference", |(_, _, row)| {
-        row.tolerance.map_or(String::new(), number)
+    ("monomers", |(.., row)| text(row.paper.map(number))),
+    ("largest_difference", |(.., row)| {
+        text(row.tolerance.map(number))
     }),
 ];
 

@@ -84,8 +84,7 @@ pub(super) fn figure7(draft: &mut Draft<'_>) -> Result<(), String> {
     let cases = cases(if draft.quick { QUICK_SEEDS } else { SEEDS });
     let results = draft.solve(&cases, |case| {
         case.solve().map_err(|e| format!("{}: {e}", case.kind))
-    });
-    let results: Vec<Halves> = results.into_iter().collect::<Result<_, _>>()?;
+    })?;
     let residuals = residuals(results.iter().map(|h| h.residual));
     draft.describe(
         "fig7",

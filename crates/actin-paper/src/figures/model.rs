@@ -41,33 +41,6 @@ impl Resolution {
     }
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-enum Rods {
-    Constant,
-    Fitted,
-    /// `Fitted` with constant shearing rigidity.
-    FittedWithoutShear,
-    /// Published `B3(kappa)` and `xi(kappa)`.
-    Extended,
-    /// Energy `C3 sigma_3 kappa_3` of the supplement instead of `xi(kappa)`.
-    CouplingEnergy,
-}
-
-impl Rods {
-    fn law(self) -> RodLaw {
-        match self {
-            Self::Constant => RodLaw::Constant,
-            Self::Fitted => RodLaw::Fitted,
-            Self::FittedWithoutShear => RodLaw::Laws(Box::new(RodLaws {
-                shear: None,
-                ..fitted_laws()
-            })),
-            Self::Extended => RodLaw::PublishedExtension,
-            Self::CouplingEnergy => RodLaw::CouplingEnergy,
-        }
-    }
-}
-
 /// Properties and loads of filaments, independent of the resolution: a line of `data/models.csv`.
 #[derive(Debug, Deserialize, PartialEq)]
 pub(super) struct Model {
@@ -77,11 +50,14 @@ pub(super) struct Model {
     colour: String,
     pub is_mean: bool,
     junction: JunctionWeight,
-    rods: Rods,
+    rods: RodLaw,
+    /// The law of rods has a constant shearing rigidity.
+    shear_is_constant: bool,
     pub balance: ForceLaw,
     pub segment_nm: f64,
     pub hold: Hold,
-    is_weak: bool,
+    /// Factor of the end force.
+    force_factor: f64,
     pub is_stiff: bool,
 }
 
@@ -126,8 +102,10 @@ impl Model {
 
     /// True if the filament of a resolution is identical under another model of the figure.
     fn equals_at(&self, resolution: Resolution, other: &Self) -> bool {
-        let ends = |m: &Self| (m.hold, m.is_weak, m.is_stiff);
-        let rods = |m: &Self| (m.rods, m.balance, m.segment_nm);
+        fn rods(m: &Model) -> (&RodLaw, bool, ForceLaw, f64) {
+            (&m.rods, m.shear_is_constant, m.balance, m.segment_nm)
+        }
+        let ends = |m: &Self| (m.hold, m.force_factor, m.is_stiff);
         let (has_rod, has_monomers) = match resolution {
             Resolution::Rod => (true, false),
             Resolution::Mixed(_) => (true, true),
@@ -161,7 +139,14 @@ impl Model {
         }
         filament.monomers.seed = seed;
         filament.junction.weight = self.junction;
-        filament.rod.law = self.rods.law();
+        filament.rod.law = self.rods.clone();
+        if self.shear_is_constant {
+            let laws = RodLaws {
+                shear: None,
+                ..fitted_laws()
+            };
+            filament.rod.law = RodLaw::Laws(Box::new(laws));
+        }
         filament.rod.force_law = self.balance;
         if self.is_stiff {
             let times = stiffness_ratio();
@@ -169,11 +154,9 @@ impl Model {
             filament.monomers.longitudinal_rigidity_pn_per_nm *= times;
             filament.rod.material = Material::PrecedingPaper;
         }
-        if self.is_weak {
-            for load in &mut scene.loads {
-                if let Load::EndForce { force_pn, .. } = load {
-                    *force_pn = force_pn.map(|f| f * 0.25);
-                }
+        for load in &mut scene.loads {
+            if let Load::EndForce { force_pn, .. } = load {
+                *force_pn = force_pn.map(|f| f * self.force_factor);
             }
         }
     }

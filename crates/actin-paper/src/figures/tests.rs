@@ -52,7 +52,7 @@ fn drawn(draft: &mut Draft<'_>) -> Result<(), String> {
 }
 
 fn one(draft: &mut Draft<'_>) -> Result<(), String> {
-    draft.solve(&[1, 2, 3], |_| ());
+    draft.attempt(&[1, 2, 3], |_| ());
     drawn(draft)
 }
 

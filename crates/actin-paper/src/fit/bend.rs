@@ -7,6 +7,7 @@ use super::parameter_fit::{Fault, ParameterFit};
 use super::search::{LawFit, stiffened};
 use crate::measure::{Specimen, bend_by_tip_force, shear_by_force};
 use crate::run::segments;
+use crate::statistics::largest;
 use actin_cosserat::{CubicShear, Stiffening, StretchLaw};
 use actin_fit::{
     ClosureModel, Data, FitError, LevenbergMarquardt, Model, Observations, Options, Starts,
@@ -125,21 +126,15 @@ fn with_differences(
 /// Fits the twist at half the rise.
 fn fit_twist(data: &BendData, law: Stiffening) -> Result<ParameterFit, String> {
     let form = Form::of("B against twist");
-    let x: Vec<f64> = data
-        .twisted
-        .iter()
-        .flat_map(|row| [row[0], row[1]])
-        .collect();
-    let y: Vec<f64> = data.twisted.iter().map(|row| row[2]).collect();
+    let rows = data.twisted.iter();
+    let x: Vec<f64> = rows.clone().flat_map(|row| [row[0], row[1]]).collect();
+    let y: Vec<f64> = rows.clone().map(|row| row[2]).collect();
     let secant = move |x: &[f64], p: &[f64]| {
         let law = Stiffening { twist: p[0], ..law };
         law.secant(x[1], x[0])
     };
     let model = with_differences(1, secant);
-    let range = data
-        .twisted
-        .iter()
-        .fold(0.0, |most: f64, row| row[0].abs().max(most));
+    let range = largest(rows.map(|row| row[0].abs()));
     let bounds = vec![(5e-3 * range, 50.0 * range)];
     let starts = Starts::at(&[0.15 * range]).and_random(10, 1);
     let data = relative(&x, 2, &y).map_err(|e| format!("{}: {e}", form.what))?;
@@ -184,14 +179,13 @@ fn shift(is_tip: bool, point: &Point, law: Stiffening, cubic_pn: f64) -> f64 {
     let rod = RodModel::with_law(RodLaw::Laws(Box::new(laws(law, cubic_pn))));
     let segments = segments(point.length_nm, SEGMENT_NM);
     let specimen = Specimen::rod(point.length_nm, Some(segments), rod);
+    let forces = [point.x];
     let found = if is_tip {
-        bend_by_tip_force(&specimen, &[point.x], 0.0)
-            .ok()
-            .and_then(|curve| curve.points.first().map(|p| p.deflection_nm))
+        let curve = bend_by_tip_force(&specimen, &forces, 0.0).ok();
+        curve.and_then(|curve| Some(curve.points.first()?.deflection_nm))
     } else {
-        shear_by_force(&specimen, &[point.x], 0.0)
-            .ok()
-            .and_then(|curve| curve.points.first().map(|p| p.shift_nm))
+        let curve = shear_by_force(&specimen, &forces, 0.0).ok();
+        curve.and_then(|curve| Some(curve.points.first()?.shift_nm))
     };
     found.unwrap_or(f64::NAN)
 }

@@ -6,7 +6,6 @@ use super::parameter_fit::Fault;
 use super::search::{Basis, LawFit, rooted, sided, stiffened, stretched};
 use super::table::FitData;
 use actin_cosserat::{StretchLaw, TwistStretch};
-use actin_fit::Model;
 use actin_sim::{BendLaw, RodLaws, TwistLaw};
 
 /// Law fitted to the columns of a group.
@@ -33,24 +32,20 @@ impl GroupFits {
             laws: RodLaws::default(),
         };
         if !data.rigidity.is_empty() {
-            let LawFit { law, basis } = sided(&data.rigidity)?;
+            let law = fits.add(0, &data.rigidity, sided(&data.rigidity)?);
             fits.laws.twist = Some(TwistLaw::Sided(law));
-            fits.add(0, &data.rigidity, basis, move |k| law.secant(k));
         }
         if !data.length.is_empty() {
-            let LawFit { law, basis } = rooted(&data.length)?;
+            let law = fits.add(1, &data.length, rooted(&data.length)?);
             fits.laws.twist_stretch = Some(TwistStretch::Rooted(law));
-            fits.add(1, &data.length, basis, move |k| law.jet(k)[0]);
         }
         if !data.bend.is_empty() {
-            let LawFit { law, basis } = stiffened(&data.bend)?;
+            let law = fits.add(2, &data.bend, stiffened(&data.bend)?);
             fits.laws.bend = Some(BendLaw::Stiffening(law));
-            fits.add(2, &data.bend, basis, move |k| law.secant(k, 0.0));
         }
         if !data.stretch.is_empty() {
-            let LawFit { law, basis } = stretched(&data.stretch)?;
+            let law = fits.add(3, &data.stretch, stretched(&data.stretch)?);
             fits.laws.stretch = Some(law);
-            fits.add(3, &data.stretch, basis, move |force| strain(law, force));
             if let (StretchLaw::Constant { rigidity }, Some(fit)) = (law, fits.fits.last_mut()) {
                 fit.remark = Some(format!("  rigidity {rigidity:.5e} pN"));
             }
@@ -70,30 +65,15 @@ impl GroupFits {
         fits.flat_map(|fit| fit.basis.faults()).collect()
     }
 
-    fn add(
-        &mut self,
-        group: usize,
-        column: &Column,
-        basis: Basis,
-        law: impl Fn(f64) -> f64 + 'static,
-    ) {
+    fn add<L: Copy + 'static>(&mut self, group: usize, column: &Column, fit: LawFit<L>) -> L {
+        let LawFit { law, value, basis } = fit;
         self.fits.push(GroupFit {
             group: &CATALOGUE.groups[group],
             column: column.clone(),
-            law: Box::new(law),
+            law: Box::new(move |x| value(&law, x)),
             basis,
             remark: None,
         });
-    }
-}
-
-fn strain(law: StretchLaw, force: f64) -> f64 {
-    match law {
-        StretchLaw::Constant { rigidity } => force / rigidity,
-        StretchLaw::Sided {
-            tension,
-            compression,
-            width,
-        } => super::forms::Stretched.value(&[force], &[tension, compression, width]),
+        law
     }
 }

@@ -3,10 +3,9 @@
 use super::table::FitData;
 use crate::measure::{
     Curve, MeasureError, Specimen, TwistPoint, bend_by_couples, bend_by_tip_force, bend_twisted,
-    sampled_by, shear_by_force, stretch_by_force, twist,
+    over_samplings_and_azimuths, sampled_by, shear_by_force, stretch_by_force, twist,
 };
 use actin_sim::Monomers;
-use rayon::prelude::*;
 
 /// Rises between the inner held monomers of a twisted filament (73.94 nm, as in Table 3).
 const SHORT: f64 = 27.0;
@@ -80,16 +79,12 @@ pub(super) fn twisted() -> Result<FitData, String> {
     })
 }
 
-/// Measures at all azimuths in parallel.
+/// Measures the mean filament at all azimuths.
 fn around<P: Send>(
     specimen: &Specimen,
     measure: impl Fn(&Specimen, f64) -> Result<Curve<P>, MeasureError> + Sync,
 ) -> Result<Vec<Curve<P>>, MeasureError> {
-    let curves: Vec<_> = AZIMUTHS_DEG
-        .par_iter()
-        .map(|&azimuth| measure(specimen, azimuth))
-        .collect();
-    curves.into_iter().collect()
+    over_samplings_and_azimuths(specimen, &[0], &AZIMUTHS_DEG, measure)
 }
 
 fn points<P>(curves: &[Curve<P>], x: impl Fn(&P) -> f64, y: impl Fn(&P) -> f64) -> Vec<Point> {

@@ -27,16 +27,14 @@ pub(crate) struct UnfittedData<'a> {
     pub dots: bool,
 }
 
-type Law<'a> = Box<dyn Fn(f64) -> f64 + 'a>;
-
-/// One of the two pictures: its column, and the laws in the unit of its axis.
+/// Picture of a column and its laws. Values are scaled to the unit of the axis.
 struct Panel<'a> {
     file: &'static str,
     title: &'static str,
     y_label: &'static str,
     column: fn(&FitData) -> &Column,
     scale: f64,
-    laws: [(&'static str, Law<'a>); 3],
+    laws: [(&'static str, &'a dyn Fn(f64) -> f64); 3],
 }
 
 /// Writes `figure-9a.svg` and `figure-9b.svg`; returns their names and captions.
@@ -57,9 +55,9 @@ pub(crate) fn draw(
         column: |data| &data.rigidity,
         scale: 1e-3,
         laws: [
-            ("published parameters", Box::new(move |k| b3.secant(k))),
-            ("the same form, refitted", Box::new(move |k| tanh.secant(k))),
-            ("saturating form", Box::new(sided)),
+            ("published parameters", &|k| b3.secant(k)),
+            ("the same form, refitted", &|k| tanh.secant(k)),
+            ("saturating form", sided),
         ],
     };
     let length = Panel {
@@ -69,12 +67,9 @@ pub(crate) fn draw(
         column: |data| &data.length,
         scale: 100.0,
         laws: [
-            ("published polynomial", Box::new(move |k| xi.extension(k))),
-            (
-                "refitted polynomial",
-                Box::new(move |k| polynomial.extension(k)),
-            ),
-            ("two slopes", Box::new(rooted)),
+            ("published polynomial", &|k| xi.extension(k)),
+            ("refitted polynomial", &|k| polynomial.extension(k)),
+            ("two slopes", rooted),
         ],
     };
     let panels = [rigidity, length].into_iter();
@@ -91,12 +86,8 @@ impl Panel<'_> {
         let range = (self.column)(data).range();
         let laws = self.laws.iter().zip([PUBLISHED, SAME_FORM, SMALLEST]);
         let laws = laws.map(|((label, law), colour)| {
-            let scaled = |k: f64| self.scale * law(k);
-            line(
-                *label,
-                palette::line(colour),
-                curve([-range, range], scaled),
-            )
+            let points = curve([-range, range], |k| self.scale * law(k));
+            line(*label, palette::line(colour), points)
         });
         let (label, more) = match beside {
             [] => ("data", ""),

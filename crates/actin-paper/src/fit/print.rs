@@ -9,7 +9,7 @@ use super::table::FitData;
 use super::twist::TwistFits;
 use crate::ProgressSink;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
-use actin_fit::{Goodness, LinearFit, Precision, Status};
+use actin_fit::{LinearFit, Precision, Status};
 
 /// Relative difference of chi squared below which two starts found the same minimum.
 const SAME: f64 = 1e-6;
@@ -39,7 +39,6 @@ fn length(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
 
 fn rigidity(tell: ProgressSink<'_>, data: &FitData, fits: &TwistFits) {
     let b3 = &data.rigidity;
-
     tell(format_args!(
         "\nB3, published form, {} values, equal weights",
         b3.value.len()
@@ -84,7 +83,11 @@ fn group(tell: ProgressSink<'_>, fit: &GroupFit) {
         tell(format_args!("{remark}"));
     }
     if column.is_known() {
-        chi_squared(tell, fit.basis.goodness());
+        let goodness = fit.basis.goodness();
+        let (chi_squared, freedom) = (goodness.chi_squared, goodness.degrees_of_freedom);
+        tell(format_args!(
+            "  chi^2 = {chi_squared:.4} for {freedom} degrees of freedom; errors follow the given standard errors"
+        ));
     }
     let (rms, largest) = (column.rms(law, false), column.largest_error(law, false));
     tell(format_args!("  rms {rms:.3e}, largest {largest:.1e}"));
@@ -136,11 +139,9 @@ pub(super) fn bend(tell: ProgressSink<'_>, data: &BendData, fits: &BendFits) {
 fn polynomial(tell: ProgressSink<'_>, fit: &LinearFit, published: &[f64]) {
     let first = 7 - published.len();
     for (j, (value, theirs)) in fit.parameters.iter().zip(published).enumerate() {
-        let error = standard_error(&fit.precision, j);
-        tell(format_args!(
-            "  p_{} = {value:13.5e} +- {error}, published {theirs:13.5e}",
-            j + first
-        ));
+        let theirs = format!(", published {theirs:13.5e}");
+        let name = format!("p_{}", j + first);
+        parameter(tell, &name, *value, (&fit.precision, j), &theirs);
     }
     tell(format_args!(
         "  rms {:.3e}, rank {}, condition {:.1e}",
@@ -148,10 +149,17 @@ fn polynomial(tell: ProgressSink<'_>, fit: &LinearFit, published: &[f64]) {
     ));
 }
 
-fn standard_error(precision: &Precision, j: usize) -> String {
-    precision
-        .standard_error(j)
-        .map_or_else(|| "   -   ".into(), |e| format!("{e:7.1e}"))
+/// Prints parameter `j` of a fit with its standard error.
+fn parameter(
+    tell: ProgressSink<'_>,
+    name: &str,
+    value: f64,
+    (precision, j): (&Precision, usize),
+    rest: &str,
+) {
+    let error = precision.standard_error(j);
+    let error = error.map_or_else(|| "   -   ".into(), |e| format!("{e:7.1e}"));
+    tell(format_args!("  {name:24} = {value:13.5e} +- {error}{rest}"));
 }
 
 fn basis(tell: ProgressSink<'_>, basis: &Basis) {
@@ -160,26 +168,15 @@ fn basis(tell: ProgressSink<'_>, basis: &Basis) {
         Basis::Simple { note, names, fit } => {
             tell(format_args!("  {note}"));
             for (j, (name, value)) in names.iter().zip(&fit.parameters).enumerate() {
-                let error = standard_error(&fit.precision, j);
-                tell(format_args!("  {name:24} = {value:12.5e} +- {error}"));
+                parameter(tell, name, *value, (&fit.precision, j), "");
             }
         }
     }
 }
 
-/// Prints chi squared of values with standard errors.
-fn chi_squared(tell: ProgressSink<'_>, goodness: &Goodness) {
-    let freedom = goodness.degrees_of_freedom;
-    tell(format_args!(
-        "  chi^2 = {:.4} for {freedom} degrees of freedom; errors follow the given standard errors",
-        goodness.chi_squared
-    ));
-}
-
 fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published: Option<&[f64]>) {
     let (fit, parameters) = (&found.fit, &found.form.parameters);
     for (j, ((key, unit), value)) in parameters.iter().zip(&fit.parameters).enumerate() {
-        let error = standard_error(&fit.precision, j);
         let theirs = published.map_or_else(String::new, |p| format!(", published {:11.4e}", p[j]));
         let status = match fit.statuses[j] {
             Status::Determined => "",
@@ -189,20 +186,16 @@ fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published: Option<&[f
             Status::AtUpperBound => ", AT ITS UPPER BOUND",
             Status::Held => ", held",
         };
-        tell(format_args!(
-            "  {key:18} = {value:12.5e} +- {error} {unit}{theirs}{status}"
-        ));
+        let rest = format!(" {unit}{theirs}{status}");
+        parameter(tell, key, *value, (&fit.precision, j), &rest);
     }
     let keys: Vec<&str> = parameters.iter().map(|(key, _)| key.as_str()).collect();
     tell(format_args!(
         "  largest correlation {}",
         strongest(&fit.precision, &keys)
     ));
-    let converged = fit
-        .starts
-        .iter()
-        .filter(|s| s.ending.is_converged())
-        .count();
+    let converged = fit.starts.iter().filter(|s| s.ending.is_converged());
+    let converged = converged.count();
     tell(format_args!(
         "  {} of {} starts found this minimum, {converged} converged; condition {:.1e}",
         fit.agreeing_starts(SAME),
@@ -214,16 +207,11 @@ fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published: Option<&[f
 /// The two parameters with the largest correlation.
 fn strongest(precision: &Precision, names: &[&str]) -> String {
     let correlation = precision.correlation();
-    let mut worst = (0.0_f64, 0, 0);
-    for i in 0..names.len() {
-        for j in 0..i {
-            if correlation[(i, j)].abs() > worst.0.abs() {
-                worst = (correlation[(i, j)], i, j);
-            }
-        }
-    }
-    match worst {
-        (0.0, ..) => "none".into(),
-        (value, i, j) => format!("{value:+.3} ({}, {})", names[j], names[i]),
+    let pairs = (0..names.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let size = |pair: &(usize, usize)| correlation[*pair].abs();
+    let strongest = pairs.max_by(|a, b| size(a).total_cmp(&size(b)));
+    match strongest.filter(|pair| size(pair) > 0.0) {
+        Some((i, j)) => format!("{:+.3} ({}, {})", correlation[(i, j)], names[j], names[i]),
+        None => "none".into(),
     }
 }

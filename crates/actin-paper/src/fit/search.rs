@@ -3,10 +3,10 @@
 
 use super::catalogue::{CATALOGUE, Form};
 use super::column::{Column, Weight};
-use super::forms::{Rooted, Sided, Stiffened, Stretched};
+use super::forms::LawForm;
 use super::parameter_fit::{Fault, ParameterFit};
 use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw};
-use actin_fit::{Data, FitError, Goodness, LinearFit, Mat, Noise, Starts, fit_linear};
+use actin_fit::{Data, Goodness, LinearFit, Mat, Noise, Starts, fit_linear};
 
 /// Number of random starts of each search, and their seed.
 pub(super) const STARTS: (usize, u64) = (200, 20_220_304);
@@ -21,6 +21,8 @@ const ROUNDING: f64 = 1e-12;
 #[derive(Clone, Debug)]
 pub(crate) struct LawFit<L> {
     pub law: L,
+    /// Value of the law at an argument.
+    pub(super) value: fn(&L, f64) -> f64,
     pub basis: Basis,
 }
 
@@ -74,26 +76,11 @@ pub(super) fn sided(column: &Column) -> Result<LawFit<SidedTwist>, String> {
         (2e-3 * range, 5.0 * range),
         (0.0, 5.0 * range),
     ];
-    let rest = (0.0, most);
-    let bounds = std::iter::once(rest).chain(side).chain(side).collect();
+    let bounds = [&[(0.0, most)][..], &side, &side].concat();
     let rise = |sign| (column.at_end(sign) - column.at_rest()).max(0.1 * most);
-    let scale = 0.25 * range;
-    let start = [
-        column.at_rest(),
-        rise(-1.0),
-        scale,
-        scale,
-        rise(1.0),
-        scale,
-        scale,
-    ];
-    let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
-    let model = Sided { range };
-    let found = ParameterFit::search(form, &model, &data, bounds, &starts)?;
-    Ok(LawFit {
-        law: model.law(&found.fit.parameters),
-        basis: Basis::Full(found),
-    })
+    let (under, over, scale) = (rise(-1.0), rise(1.0), 0.25 * range);
+    let start = [column.at_rest(), under, scale, scale, over, scale, scale];
+    full(form, &LawForm::sided(range), &data, bounds, start)
 }
 
 /// Fits length against twist with two slopes and a cubic term, or one slope and a cubic term.
@@ -101,40 +88,32 @@ pub(super) fn rooted(column: &Column) -> Result<LawFit<RootedStretch>, String> {
     let form = Form::of("length against twist");
     let data = observed(form, column, Weight::Equal)?;
     let range = column.range();
-    let design = Mat::from_fn(data.len(), 2, |i, j| data.row(i)[0].powi([1, 3][j]));
-    let straight = simple(form, fit_linear(design.as_ref(), data.observations()))?;
-    let slope = column.largest() / range;
-    let full = || {
+    let model = LawForm::rooted(range);
+    let fit = linear(form, &data, &[1, 3])?;
+    let (straight, cubic) = (fit.parameters[0], fit.parameters[1]);
+    let simple = LawFit {
+        law: (model.law)(&[straight, 0.0, range, cubic]),
+        value: model.value,
+        basis: Basis::Simple {
+            note: "one slope fits as well as two",
+            names: &["slope (nm)", "cubic (nm^3)"],
+            fit,
+        },
+    };
+    unless_simple(&data, simple, || {
+        let slope = column.largest() / range;
         let heights = (-20.0 * slope, 20.0 * slope);
         let cube = 20.0 * slope / (range * range);
         let bounds = vec![heights, heights, (2e-3 * range, 2.0 * range), (-cube, cube)];
-        let start = [
-            straight.parameters[0].clamp(heights.0, heights.1),
-            slope,
-            range / 7.0,
-            0.0,
-        ];
-        let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
-        ParameterFit::search(form, &Rooted { range }, &data, bounds, &starts)
-    };
-    if let Some(found) = unless_simple(&data, &straight, full)? {
-        let law = Rooted { range }.law(&found.fit.parameters);
-        let basis = Basis::Full(found);
-        return Ok(LawFit { law, basis });
-    }
-    let law = RootedStretch {
-        slope: straight.parameters[0],
-        bend: 0.0,
-        half: range,
-        cubic: straight.parameters[1],
-        range,
-    };
-    let basis = Basis::Simple {
-        note: "one slope fits as well as two",
-        names: &["slope (nm)", "cubic (nm^3)"],
-        fit: straight,
-    };
-    Ok(LawFit { law, basis })
+        let straight = straight.clamp(heights.0, heights.1);
+        full(
+            form,
+            &model,
+            &data,
+            bounds,
+            [straight, slope, range / 7.0, 0.0],
+        )
+    })
 }
 
 /// Fits B against curvature: a rise from `rest`, or a constant. Softening is an error.
@@ -142,9 +121,18 @@ pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
     let form = Form::of("B against curvature");
     let data = observed(form, column, Weight::Relative)?;
     let (most, range) = (column.largest(), column.range());
-    let ones = Mat::full(data.len(), 1, 1.0);
-    let constant = simple(form, fit_linear(ones.as_ref(), data.observations()))?;
-    let full = || {
+    let model = LawForm::stiffened(range);
+    let constant = linear(form, &data, &[0])?;
+    let simple = LawFit {
+        law: (model.law)(&[constant.parameters[0], 0.0, range]),
+        value: model.value,
+        basis: Basis::Simple {
+            note: "a constant fits as well as a rise",
+            names: &["B (pN nm^2)"],
+            fit: constant,
+        },
+    };
+    let chosen = unless_simple(&data, simple, || {
         // The search includes negative rises, so that softening data are refused and not fitted by
         // a constant.
         let bounds = vec![
@@ -154,23 +142,8 @@ pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
         ];
         let rest = column.at_rest();
         let start = [rest, (most - rest).max(0.05 * most), 0.2 * range];
-        let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
-        ParameterFit::search(form, &Stiffened { range }, &data, bounds, &starts)
-    };
-    let chosen = match unless_simple(&data, &constant, full)? {
-        Some(found) => LawFit {
-            law: Stiffened { range }.law(&found.fit.parameters),
-            basis: Basis::Full(found),
-        },
-        None => LawFit {
-            law: Stiffened { range }.law(&[constant.parameters[0], 0.0, range]),
-            basis: Basis::Simple {
-                note: "a constant fits as well as a rise",
-                names: &["B (pN nm^2)"],
-                fit: constant,
-            },
-        },
-    };
+        full(form, &model, &data, bounds, start)
+    })?;
     let refused = |e| format!("{}: {e}: no law softens", form.what);
     chosen.law.validate().map_err(refused)?;
     Ok(chosen)
@@ -181,8 +154,8 @@ pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
 pub(super) fn stretched(column: &Column) -> Result<LawFit<StretchLaw>, String> {
     let form = Form::of("strain against force");
     let data = observed(form, column, Weight::Equal)?;
-    let forces = Mat::from_fn(data.len(), 1, |i, _| data.row(i)[0]);
-    let constant = simple(form, fit_linear(forces.as_ref(), data.observations()))?;
+    let model = LawForm::stretched();
+    let constant = linear(form, &data, &[1])?;
     let rigidity = constant.parameters[0].recip();
     if !(rigidity > 0.0 && rigidity.is_finite()) {
         let what = &form.what;
@@ -190,32 +163,30 @@ pub(super) fn stretched(column: &Column) -> Result<LawFit<StretchLaw>, String> {
             "{what}: strain must grow with force, tension being positive"
         ));
     }
-    let full = || {
+    let has_sides = [-1.0, 1.0].map(|sign| column.on_side(sign) >= FEWEST) == [true; 2];
+    let simple = LawFit {
+        law: StretchLaw::Constant { rigidity },
+        value: model.value,
+        basis: Basis::Simple {
+            note: ONE_RIGIDITY[usize::from(has_sides)],
+            names: &["strain per force (1/pN)"],
+            fit: constant,
+        },
+    };
+    if !has_sides {
+        return Ok(simple);
+    }
+    unless_simple(&data, simple, || {
         let most = column.largest();
         let sides = (1e-2 * rigidity, 1e2 * rigidity);
         let bounds = vec![sides, sides, (1e-3 * most, 2.0 * most)];
-        let starts = Starts::at(&[rigidity, rigidity, 0.1 * most]).and_random(STARTS.0, STARTS.1);
-        ParameterFit::search(form, &Stretched, &data, bounds, &starts)
-    };
-    let has_sides = [-1.0, 1.0].map(|sign| column.on_side(sign) >= FEWEST) == [true; 2];
-    let found = if has_sides {
-        unless_simple(&data, &constant, full)?
-    } else {
-        None
-    };
-    Ok(match found {
-        Some(found) => LawFit {
-            law: Stretched::law(&found.fit.parameters),
-            basis: Basis::Full(found),
-        },
-        None => LawFit {
-            law: StretchLaw::Constant { rigidity },
-            basis: Basis::Simple {
-                note: ONE_RIGIDITY[usize::from(has_sides)],
-                names: &["strain per force (1/pN)"],
-                fit: constant,
-            },
-        },
+        full(
+            form,
+            &model,
+            &data,
+            bounds,
+            [rigidity, rigidity, 0.1 * most],
+        )
     })
 }
 
@@ -243,31 +214,56 @@ fn observed(form: &Form, column: &Column, weight: Weight) -> Result<Data, String
     data.map_err(|e| format!("{}: {e}", form.what))
 }
 
-fn simple(form: &Form, fit: Result<LinearFit, FitError>) -> Result<LinearFit, String> {
+/// Linear fit of powers of the variable.
+fn linear(form: &Form, data: &Data, powers: &[i32]) -> Result<LinearFit, String> {
+    let power = |i: usize, j: usize| data.row(i)[0].powi(powers[j]);
+    let design = Mat::from_fn(data.len(), powers.len(), power);
+    let fit = fit_linear(design.as_ref(), data.observations());
     fit.map_err(|e| format!("{}: {e}", form.what))
 }
 
-/// Fits the full form, with two more parameters. Returns `None` if the simple form fits to rounding
-/// or if the improvement is explained by chance.
-fn unless_simple(
+/// Searches the parameters of a form, from `start` and from random starts.
+fn full<L, const N: usize>(
+    form: &'static Form,
+    model: &LawForm<L, N>,
     data: &Data,
-    simple: &LinearFit,
-    full: impl FnOnce() -> Result<ParameterFit, String>,
-) -> Result<Option<ParameterFit>, String> {
+    bounds: Vec<(f64, f64)>,
+    start: [f64; N],
+) -> Result<LawFit<L>, String> {
+    let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
+    let found = ParameterFit::search(form, model, data, bounds, &starts)?;
+    Ok(LawFit {
+        law: (model.law)(&found.fit.parameters),
+        value: model.value,
+        basis: Basis::Full(found),
+    })
+}
+
+/// Fits the full form, with two more parameters. Keeps the simple form if it fits to rounding or if
+/// the improvement is explained by chance.
+fn unless_simple<L>(
+    data: &Data,
+    simple: LawFit<L>,
+    full: impl FnOnce() -> Result<LawFit<L>, String>,
+) -> Result<LawFit<L>, String> {
+    let Basis::Simple { names, .. } = &simple.basis else {
+        return Ok(simple);
+    };
     let observations = data.observations();
     let scaled = observations.values().iter().zip(observations.deviations());
     let size: f64 = scaled.map(|(y, s)| (y / s).powi(2)).sum();
-    let parameters = simple.parameters.len() + 2;
-    if simple.goodness.chi_squared <= ROUNDING.powi(2) * size || data.len() <= parameters {
-        return Ok(None);
+    let parameters = names.len() + 2;
+    let before = simple.basis.goodness().chi_squared;
+    if before <= ROUNDING.powi(2) * size || data.len() <= parameters {
+        return Ok(simple);
     }
     let found = full()?;
-    let [before, after] = [&simple.goodness, &found.fit.goodness].map(|g| g.chi_squared);
+    let after = found.basis.goodness().chi_squared;
     let freedom = (data.len() - parameters) as f64;
     // Tail probability of chi squared with 2 degrees of freedom, or of F with 2 and `freedom`.
     let chance = match observations.noise() {
         Noise::Known => (-0.5 * (before - after)).exp(),
         Noise::Unknown | Noise::Relative => (after / before).powf(0.5 * freedom),
     };
-    Ok((chance < CHANCE).then_some(found))
+    Ok(if chance < CHANCE { found } else { simple })
 }

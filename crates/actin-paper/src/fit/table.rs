@@ -21,13 +21,6 @@ pub(crate) struct FitData {
     pub stretch: Column,
 }
 
-/// Valid values of a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Rule {
-    Finite,
-    Positive,
-}
-
 impl FitData {
     /// Tables 3 and 5 of the paper; without the rows that it calls unreliable unless `all_rows`.
     pub(crate) fn from_paper(all_rows: bool) -> Self {
@@ -131,14 +124,9 @@ struct Row<'a> {
 impl Row<'_> {
     /// Appends the value of the row, if any, to the column of a group.
     fn read(&self, group: &Group, column: &mut Column) -> Result<(), String> {
-        let rule = if group.is_rigidity {
-            Rule::Positive
-        } else {
-            Rule::Finite
-        };
-        let x = self.cell(&group.x, Rule::Finite)?;
-        let value = self.cell(&group.value, rule)?;
-        let error = self.cell(&group.error, Rule::Positive)?;
+        let x = self.cell(&group.x, false)?;
+        let value = self.cell(&group.value, group.is_rigidity)?;
+        let error = self.cell(&group.error, true)?;
         let lacks =
             |key: &str, of: &str| Err(format!("{}: a `{of}` without its `{key}`", self.line()));
         match (x, value, error) {
@@ -165,7 +153,7 @@ impl Row<'_> {
     }
 
     /// Returns a cell as a number; `None` if the cell is empty or the column is missing.
-    fn cell(&self, key: &str, rule: Rule) -> Result<Option<f64>, String> {
+    fn cell(&self, key: &str, is_positive: bool) -> Result<Option<f64>, String> {
         let Some(at) = self.place(key) else {
             return Ok(None);
         };
@@ -179,11 +167,11 @@ impl Row<'_> {
                 "{line}:{column}: `{key}` is `{text}`: must be {rule}"
             ))
         };
-        match (text.parse::<f64>(), rule) {
-            (Err(_), _) => refused("a number"),
-            (Ok(value), _) if !value.is_finite() => refused("finite"),
-            (Ok(value), Rule::Positive) if value <= 0.0 => refused("positive"),
-            (Ok(value), _) => Ok(Some(value)),
+        match text.parse::<f64>() {
+            Err(_) => refused("a number"),
+            Ok(value) if !value.is_finite() => refused("finite"),
+            Ok(value) if is_positive && value <= 0.0 => refused("positive"),
+            Ok(value) => Ok(Some(value)),
         }
     }
 }

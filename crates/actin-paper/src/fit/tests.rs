@@ -1,7 +1,7 @@
 //! Fits to synthetic tables recover the parameters of known laws at any scale.
 
 use super::column::Column;
-use super::forms::{Rooted, Sided, Stiffened, Stretched};
+use super::forms::LawForm;
 use super::groups::GroupFits;
 use super::search::{Basis, LawFit, rooted, sided, stiffened, stretched};
 use super::table::FitData;
@@ -99,7 +99,13 @@ fn twist_is_recovered_at_every_scale() {
                 0.3 * range,
                 0.3 * range,
             ];
-            let column = observed(&Sided { range }, &sides(40, range), &truth, 0.01, seed);
+            let column = observed(
+                &LawForm::sided(range),
+                &sides(40, range),
+                &truth,
+                0.01,
+                seed,
+            );
             let fit = sided(&column).unwrap();
             assert_near(full(&fit), &truth);
             assert!((fit.law.range / range - 1.0).abs() < 1e-12);
@@ -117,17 +123,23 @@ fn laws_are_recovered_without_noise() {
             }
         };
         let truth = [size, 3.0 * size, 0.01, 0.02, 5.0 * size, 0.012, 0.01];
-        let column = observed(&Sided { range }, &sides(15, range), &truth, 0.0, 1);
+        let column = observed(&LawForm::sided(range), &sides(15, range), &truth, 0.0, 1);
         near(full(&sided(&column).unwrap()), &truth);
         let truth = [-0.3 * size, 0.45 * size, 7e-3, 30.0 * size];
-        let column = observed(&Rooted { range }, &sides(15, range), &truth, 0.0, 1);
+        let column = observed(&LawForm::rooted(range), &sides(15, range), &truth, 0.0, 1);
         near(full(&rooted(&column).unwrap()), &truth);
         let truth = [size, 0.3 * size, 0.2 * range];
         let x: Vec<f64> = sides(15, range)[16..].to_vec();
-        let column = observed(&Stiffened { range }, &x, &truth, 0.0, 1);
+        let column = observed(&LawForm::stiffened(range), &x, &truth, 0.0, 1);
         near(full(&stiffened(&column).unwrap()), &truth);
         let truth = [3.0 * size, size, 1e-3];
-        let column = observed(&Stretched, &sides(15, 0.02 * size), &truth, 0.0, 1);
+        let column = observed(
+            &LawForm::stretched(),
+            &sides(15, 0.02 * size),
+            &truth,
+            0.0,
+            1,
+        );
         near(full(&stretched(&column).unwrap()), &truth);
     }
 }
@@ -137,10 +149,16 @@ fn bending_and_stretch_are_recovered_at_every_scale() {
     for (seed, rest) in [(5, 100.0), (6, 3e4), (7, 1e5)] {
         let (range, truth) = (0.02, [rest, 0.4 * rest, 4e-3]);
         let x: Vec<f64> = (1..60).map(|i| range * f64::from(i) / 59.0).collect();
-        let column = observed(&Stiffened { range }, &x, &truth, 0.01, seed);
+        let column = observed(&LawForm::stiffened(range), &x, &truth, 0.01, seed);
         assert_near(full(&stiffened(&column).unwrap()), &truth);
         let truth = [3.0 * rest, rest, 1e-3];
-        let column = observed(&Stretched, &sides(30, 0.02 * rest), &truth, 0.01, seed);
+        let column = observed(
+            &LawForm::stretched(),
+            &sides(30, 0.02 * rest),
+            &truth,
+            0.01,
+            seed,
+        );
         assert_near(full(&stretched(&column).unwrap()), &truth);
     }
 }
@@ -150,23 +168,29 @@ fn bending_and_stretch_are_recovered_at_every_scale() {
 fn simpler_laws_are_preferred_if_they_fit() {
     let x: Vec<f64> = (1..30).map(|i| 5e-4 * f64::from(i)).collect();
     for share in [0.0, 0.02] {
-        let column = observed(&Stiffened { range: 0.015 }, &x, &[2e4, 0.0, 1e-3], share, 9);
+        let column = observed(&LawForm::stiffened(0.015), &x, &[2e4, 0.0, 1e-3], share, 9);
         let bend = stiffened(&column).unwrap();
         assert!((bend.law.rest / 2e4 - 1.0).abs() < 0.02 && bend.law.rise.abs() < 1e-9);
         bend.law.validate().unwrap();
-        let column = observed(&Stretched, &sides(12, 200.0), &[2e4, 2e4, 1e-3], share, 9);
+        let column = observed(
+            &LawForm::stretched(),
+            &sides(12, 200.0),
+            &[2e4, 2e4, 1e-3],
+            share,
+            9,
+        );
         let stretch = stretched(&column).unwrap().law;
         let StretchLaw::Constant { rigidity } = stretch else {
             panic!("{stretch:?}");
         };
         assert!((rigidity / 2e4 - 1.0).abs() < 0.02);
         let truth = [-0.3, 0.0, 7e-3, 20.0];
-        let column = observed(&Rooted { range: 0.05 }, &sides(12, 0.05), &truth, share, 9);
+        let column = observed(&LawForm::rooted(0.05), &sides(12, 0.05), &truth, share, 9);
         let length = rooted(&column).unwrap().law;
         assert!((length.slope / -0.3 - 1.0).abs() < 0.03 && length.bend.abs() < 1e-12);
         length.validate().unwrap();
     }
-    let column = observed(&Stiffened { range: 0.015 }, &x, &[2e4, -8e3, 4e-3], 0.01, 9);
+    let column = observed(&LawForm::stiffened(0.015), &x, &[2e4, -8e3, 4e-3], 0.01, 9);
     let message = stiffened(&column).unwrap_err();
     assert!(message.contains("no law softens"), "{message}");
 }

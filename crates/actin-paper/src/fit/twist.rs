@@ -2,7 +2,7 @@
 
 use super::catalogue::Form;
 use super::column::Weight;
-use super::forms::Tanh;
+use super::forms::LawForm;
 use super::groups::GroupFits;
 use super::parameter_fit::{Fault, ParameterFit};
 use super::search::STARTS;
@@ -55,14 +55,11 @@ impl TwistFits {
         let published = TanhTwist::published();
         let tanh = |data: &Data, extra: &[f64]| {
             let starts = Starts::at(extra).and_random(STARTS.0, STARTS.1);
-            let limits = wide(published);
-            ParameterFit::search(
+            let (form, model) = (
                 Form::of("published form of B3"),
-                &Tanh { limits },
-                data,
-                LAMBDA_BOUNDS.to_vec(),
-                &starts,
-            )
+                LawForm::tanh(wide(published)),
+            );
+            ParameterFit::search(form, &model, data, LAMBDA_BOUNDS.to_vec(), &starts)
         };
         let tanh_fit = tanh(&equal, &published.lambda)?;
         Ok(Self {
@@ -101,14 +98,11 @@ impl TwistFits {
     }
 
     pub(crate) fn tanh_law(&self, fit: &Fit) -> TanhTwist {
-        let law = Tanh {
-            limits: TanhTwist::published(),
-        }
-        .law(&fit.parameters);
-        TanhTwist {
+        let limits = TanhTwist {
             range: self.ranges[0],
-            ..law
-        }
+            ..TanhTwist::published()
+        };
+        (LawForm::tanh(limits).law)(&fit.parameters)
     }
 
     /// The law of a polynomial fit; `p_0 = 0` if the fit has no offset.
@@ -134,7 +128,6 @@ fn wide(law: TanhTwist) -> TanhTwist {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::forms::{Rooted, Sided};
     use actin_fit::{Model, check_gradient};
 
     /// The published polynomial is the least-squares fit; the published `lambda` are not.
@@ -174,9 +167,9 @@ mod tests {
         let range = 1.0;
         #[rustfmt::skip]
         let checks: [(&dyn Model, &[f64]); 3] = [
-            (&Tanh { limits: TanhTwist::published() }, &TanhTwist::published().lambda),
-            (&Sided { range }, &[300.0, 1.3e4, 0.009, 0.02, 2e4, 0.012, 0.016]),
-            (&Rooted { range }, &[-0.29, 0.46, 0.0067, 28.0]),
+            (&LawForm::tanh(TanhTwist::published()), &TanhTwist::published().lambda),
+            (&LawForm::sided(range), &[300.0, 1.3e4, 0.009, 0.02, 2e4, 0.012, 0.016]),
+            (&LawForm::rooted(range), &[-0.29, 0.46, 0.0067, 28.0]),
         ];
         for (model, parameters) in checks {
             let check = check_gradient(model, &data, parameters).unwrap();

@@ -58,38 +58,25 @@ fn law(laws: &RodLaws, name: &str, out: &Path) -> Result<(), String> {
 /// Writes `curves.csv`: all forms over the range of the data.
 pub(super) fn curves(data: &FitData, fits: &TwistFits, out: &Path) -> Result<(), String> {
     let range = data.rigidity.range().max(data.length.range());
-    let (tanh, relative) = (
-        fits.tanh_law(&fits.tanh.fit),
-        fits.tanh_law(&fits.tanh_relative.fit),
-    );
+    let [tanh, relative] = [&fits.tanh, &fits.tanh_relative].map(|found| fits.tanh_law(&found.fit));
     let [sided, rooted] = ["twist", "length"].map(|name| &fits.smallest.named(name).law);
     let polynomial = fits.polynomial_law(&fits.polynomial);
+    let (b3, xi) = (TanhTwist::published(), PolynomialStretch::published());
+    let columns: [(&str, &dyn Fn(f64) -> f64); 8] = [
+        ("kappa3_rad_per_nm", &|k| k),
+        ("b3_published_pn_nm2", &|k| b3.secant(k)),
+        ("b3_tanh_pn_nm2", &|k| tanh.secant(k)),
+        ("b3_tanh_relative_pn_nm2", &|k| relative.secant(k)),
+        ("b3_sided_pn_nm2", sided),
+        ("dl_over_l_published", &|k| xi.extension(k)),
+        ("dl_over_l_polynomial", &|k| polynomial.extension(k)),
+        ("dl_over_l_rooted", rooted),
+    ];
     let rows = (-CURVE..=CURVE).map(|i| {
         let k = range * f64::from(i) / f64::from(CURVE);
-        [
-            k,
-            TanhTwist::published().secant(k),
-            tanh.secant(k),
-            relative.secant(k),
-            sided(k),
-            PolynomialStretch::published().extension(k),
-            polynomial.extension(k),
-            rooted(k),
-        ]
-        .map(number)
-        .to_vec()
+        columns.map(|(_, law)| number(law(k))).to_vec()
     });
-    let header = [
-        "kappa3_rad_per_nm",
-        "b3_published_pn_nm2",
-        "b3_tanh_pn_nm2",
-        "b3_tanh_relative_pn_nm2",
-        "b3_sided_pn_nm2",
-        "dl_over_l_published",
-        "dl_over_l_polynomial",
-        "dl_over_l_rooted",
-    ];
-    write_csv(out, "curves.csv", &header, rows)
+    write_csv(out, "curves.csv", &columns.map(|(name, _)| name), rows)
 }
 
 fn number(x: f64) -> String {

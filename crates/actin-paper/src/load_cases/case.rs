@@ -90,7 +90,7 @@ impl Case {
         }
     }
 
-    /// Clamped at the start, pulled by a tension (pN), then loaded with each transverse force (pN).
+    /// Clamped at the start, pulled by a tension (pN), then loaded with each force (pN).
     pub(super) fn forces(
         group: Group,
         name: String,
@@ -111,26 +111,6 @@ impl Case {
         let name = format!("guided {:.0} nm, tension {tension_pn} pN", rises * RISE_NM);
         let loads = (Some(FreeTranslation::Freely), tension_pn, &SMALL_PN[..]);
         Self::forces(group, name, rises, loads)
-    }
-
-    /// Turned (deg per 73.94 nm), then pulled along the axis by each force (pN).
-    pub(super) fn stretched(
-        group: Group,
-        name: String,
-        rises: f64,
-        (turned, forces_pn): (f64, &[f64]),
-    ) -> Self {
-        let loads = (Some(FreeTranslation::AlongAxis), 0.0, forces_pn);
-        let mut case = Self::forces(group, name, rises, loads);
-        if let Loading::Forces { turn_deg, .. } = &mut case.loading {
-            *turn_deg = turned;
-        }
-        case
-    }
-
-    /// A filament of 301.2 nm, turned and pushed in at both ends.
-    pub(super) fn buckled(group: Group, name: String, turn_deg: f64) -> Self {
-        Self::new(group, name, 110.0, Loading::Buckled { turn_deg })
     }
 
     pub(super) fn length_nm(&self) -> f64 {

@@ -37,23 +37,18 @@ fn cases(rises: f64) -> [(&'static str, Case); 6] {
     let guided = |tension| Case::guided(Group::Beside, rises, tension);
     let turns_deg = vec![-120.0, -40.0, -10.0, 10.0, 40.0, 120.0];
     let twisted = Loading::Twisted { turns_deg };
-    let cantilever = (None, 0.0, &[0.5][..]);
+    let twisted = Case::new(Group::Beside, name("twisted"), rises, twisted);
+    let pulled = (Some(FreeTranslation::AlongAxis), 0.0, &[10.0][..]);
+    let pulled = Case::forces(Group::Beside, name("pulled"), rises, pulled);
+    let loads = (None, 0.0, &[0.5][..]);
+    let cantilever = Case::forces(Group::Beside, name("cantilever"), rises + 0.5, loads);
     [
         ("guided, no tension", guided(0.0)),
         ("guided, 5 pN", guided(5.0)),
         ("guided, 10 pN", guided(10.0)),
-        (
-            "twisted",
-            Case::new(Group::Beside, name("twisted"), rises, twisted),
-        ),
-        (
-            "pulled",
-            Case::stretched(Group::Beside, name("pulled"), rises, (0.0, &[10.0])),
-        ),
-        (
-            "cantilever",
-            Case::forces(Group::Beside, name("cantilever"), rises + 0.5, cantilever),
-        ),
+        ("twisted", twisted),
+        ("pulled", pulled),
+        ("cantilever", cantilever),
     ]
 }
 

@@ -1,6 +1,6 @@
 //! Spread of results over resolutions, for rods joined to the mean filament.
 
-use super::case::{Case, Group};
+use super::case::{Case, Group, Loading};
 use super::filament::{FilamentModel, RISE_NM};
 use super::row::Row;
 use super::solve::{CaseSolution, solve};
@@ -35,7 +35,7 @@ pub(super) fn rows(name: &str, law: &RodLaw, quick: bool) -> Vec<Row> {
     sets.extend(turns.iter().map(|&turn_deg| {
         let name = format!("Figures 8 and 10, {turn_deg:+} deg, rods at the ends");
         Set {
-            case: Case::buckled(Group::Mixed, name, turn_deg),
+            case: Case::new(Group::Mixed, name, 110.0, Loading::Buckled { turn_deg }),
             quantities: &["height (nm)", "couple (pN nm)"],
             stretches: |rod, whole| vec![[0.0, 0.5 * rod], [whole - 0.5 * rod, whole]],
             lengths_nm: AT_ENDS_NM,

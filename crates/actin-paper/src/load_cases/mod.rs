@@ -16,7 +16,7 @@ mod write;
 pub(crate) use quantities::compared;
 
 use crate::ProgressSink;
-use actin_draw::report::write_atomically;
+use actin_draw::report::{save, write_atomically};
 use actin_sim::{Monomers as Model, RodLaw};
 use case::Case;
 use filament::FilamentModel;
@@ -54,6 +54,7 @@ pub enum Subject {
     BeyondData,
 }
 
+const PAGE: &str = "load-cases.md";
 const SAMPLINGS: u64 = 8;
 const QUICK_SAMPLINGS: u64 = 2;
 
@@ -65,25 +66,21 @@ type Law = (String, RodLaw);
 /// An unknown law, or a file that cannot be written.
 pub fn run(options: &Options, tell: ProgressSink<'_>) -> Result<(), String> {
     let named = |name: &String| Ok((name.clone(), filament::law(name)?));
-    let laws: Vec<Law> = options
-        .laws
-        .iter()
-        .map(named)
-        .collect::<Result<_, String>>()?;
-    if options.subject == Subject::Ends {
-        return ends::run(&options.out, &laws, tell);
-    }
-    if options.subject == Subject::BeyondData {
-        return beyond::run(&options.out, options.write, tell);
+    let laws: Result<Vec<Law>, String> = options.laws.iter().map(named).collect();
+    let laws = laws?;
+    match options.subject {
+        Subject::Cases => {}
+        Subject::Ends => return ends::run(&options.out, &laws, tell),
+        Subject::BeyondData => return beyond::run(&options.out, options.write, tell),
     }
     let clock = Instant::now();
     let rows = measured(&options.out, &laws, options.quick, tell)?;
     write::csv(&options.out, &rows)?;
     let page = write::page(&rows);
-    write::page_into(&options.out, &page)?;
+    save(&options.out, PAGE, &page)?;
     write::picture(&options.out, &rows)?;
     if options.write {
-        write::page_into(&crate::workspace_root().join("docs/tables"), &page)?;
+        save(&crate::workspace_root().join("docs/tables"), PAGE, &page)?;
     }
     tell(format_args!("{}", write::summary(&rows)));
     let seconds = clock.elapsed().as_secs_f64();
@@ -93,15 +90,6 @@ pub fn run(options: &Options, tell: ProgressSink<'_>) -> Result<(), String> {
         options.out.display()
     ));
     Ok(())
-}
-
-/// Extent of the computation for a law.
-#[derive(Clone, Copy)]
-struct CaseExtent {
-    quick: bool,
-    /// Computes only segments of 10 nm against the mean filament, without trajectories in a quick
-    /// run.
-    only_coarse: bool,
 }
 
 /// The rows of all cases under all laws, in the order of the table.
@@ -114,10 +102,8 @@ fn measured(
     let cases = case::all(quick);
     let clock = Instant::now();
     let timed = |name: &str, since: Instant| {
-        tell(format_args!(
-            "{name}: {:.0} s",
-            since.elapsed().as_secs_f64()
-        ));
+        let seconds = since.elapsed().as_secs_f64();
+        tell(format_args!("{name}: {seconds:.0} s"));
     };
     let monomers = monomers(Some(&folder(out)?), &cases, quick, &|error| {
         if let Some(error) = error {
@@ -125,14 +111,10 @@ fn measured(
         }
     })?;
     timed("monomers", clock);
-    let effort = CaseExtent {
-        quick,
-        only_coarse: false,
-    };
     let mut rows = Vec::new();
     for law in laws {
         let clock = Instant::now();
-        rows.extend(of_law(law, &cases, &monomers, effort));
+        rows.extend(of_law(law, &cases, &monomers, (quick, false)));
         timed(&law.0, clock);
     }
     // Sorts by group, case and quantity in order of occurrence, then by law.
@@ -143,11 +125,13 @@ fn measured(
     Ok(rows)
 }
 
+/// The rows of all cases under one law. `only_coarse` computes only segments of 10 nm against the mean
+/// filament, without trajectories in a quick run.
 fn of_law(
     (name, law): &Law,
     cases: &[Case],
     monomers: &[Monomers],
-    CaseExtent { quick, only_coarse }: CaseExtent,
+    (quick, only_coarse): (bool, bool),
 ) -> Vec<Row> {
     let rods = |case: &Case| -> Rods {
         let coarse = solve(case, &FilamentModel::coarse(law));
@@ -216,13 +200,11 @@ fn filaments(case: &Case, samplings: u64, quick: bool) -> Vec<FilamentModel> {
     let drawn = (0..samplings).flat_map(|seed| {
         let turned = seed as f64 * 360.0 / samplings as f64;
         let azimuths = drawn.clone().into_iter();
-        azimuths
-            .map(move |azimuth| FilamentModel::with_sampled_bonds(seed, (azimuth + turned) % 360.0))
+        let azimuths = azimuths.map(move |azimuth| (azimuth + turned) % 360.0);
+        azimuths.map(move |azimuth| FilamentModel::with_sampled_bonds(seed, azimuth))
     });
-    mean.into_iter()
-        .map(FilamentModel::mean)
-        .chain(drawn)
-        .collect()
+    let mean = mean.into_iter().map(FilamentModel::mean);
+    mean.chain(drawn).collect()
 }
 
 /// Folder of the cached equilibria of monomers.

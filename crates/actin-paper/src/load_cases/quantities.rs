@@ -3,7 +3,7 @@
 use super::case::{self, Bound, Group};
 use super::filament;
 use super::row::Row;
-use super::{CaseExtent, monomers, of_law, write};
+use super::{monomers, of_law, write};
 use actin_draw::report::{self, Origin};
 use std::path::Path;
 
@@ -23,11 +23,7 @@ pub(crate) fn compared(
     let law = filament::law(name)?;
     let cases = case::all(quick);
     let monomers = monomers(None, &cases, quick, &|_| done())?;
-    let effort = CaseExtent {
-        quick,
-        only_coarse: true,
-    };
-    let rows = of_law(&(name.to_owned(), law), &cases, &monomers, effort);
+    let rows = of_law(&(name.to_owned(), law), &cases, &monomers, (quick, true));
     write::picture(out, &rows)?;
     let mut all: Vec<ComparedQuantity> = rows.iter().filter_map(of_row).collect();
     let unsolved = (rows.len() - all.len()) as f64;

@@ -10,8 +10,6 @@ use actin_sim::shape::Ribbon;
 use actin_sim::{Assembly, End, Equilibrium, FreeTranslation, Hold, Part, Scene, Setting, Task};
 use serde::{Deserialize, Serialize};
 
-/// Initial rotations of a free filament about its axis (deg).
-const STARTS_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
 /// Iteration limit of a rod equilibrium, and the smallest step along its path. Monomers have soft
 /// modes and may need thousands of iterations; rods that exceed the limit fail.
 const ROD_ITERATIONS: usize = 300;
@@ -207,26 +205,16 @@ fn linked(figure: u32, made: &FilamentModel) -> Result<CaseSolution, String> {
         accept_jumps: false,
         ..solver(made)
     });
-    let mut lowest: Option<(f64, CaseSolution)> = None;
-    for start in STARTS_DEG {
-        let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
-        assembly.roll(start.to_radians());
-        let solved = SolvedScene::run(assembly)?;
-        let energy = solved.last().potential_pn_nm();
-        if lowest.as_ref().is_some_and(|(low, _)| energy >= *low) {
-            continue;
-        }
-        let found = CaseSolution {
-            values: vec![("energy (pN nm)".to_owned(), energy)],
-            line: Some(CentreLine::new(&solved.assembly, solved.state())),
-            doubtful: usize::from(solved.doubtful() != Some([0, 0])),
-            ..CaseSolution::default()
-        };
-        lowest = Some((energy, found));
-    }
-    lowest
-        .map(|(_, found)| found)
-        .ok_or_else(|| "no start".to_owned())
+    let solved = SolvedScene::rolled(&scene)?;
+    let energy = |solved: &SolvedScene| solved.last().potential_pn_nm();
+    let lowest = solved.iter().min_by(|a, b| energy(a).total_cmp(&energy(b)));
+    let lowest = lowest.ok_or("no start")?;
+    Ok(CaseSolution {
+        values: vec![("energy (pN nm)".to_owned(), energy(lowest))],
+        line: Some(CentreLine::new(&lowest.assembly, lowest.state())),
+        doubtful: usize::from(lowest.doubtful() != Some([0, 0])),
+        ..CaseSolution::default()
+    })
 }
 
 /// A filament whose ends are turned and pushed in, in both orders; the equilibrium of lower energy.

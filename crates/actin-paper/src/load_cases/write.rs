@@ -6,7 +6,7 @@ use crate::charts::line;
 use crate::measure::SampleStatistics;
 use crate::palette;
 use crate::statistics::distinct;
-use actin_draw::report::{save, write_csv};
+use actin_draw::report::write_csv;
 use actin_draw::{Chart, Mark, Series};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -105,11 +105,6 @@ pub(super) fn summary(rows: &[Row]) -> String {
         );
     }
     text
-}
-
-/// Writes `load-cases.md` into a folder.
-pub(super) fn page_into(folder: &Path, page: &str) -> Result<(), String> {
-    save(folder, "load-cases.md", page)
 }
 
 /// Smallest drawn ratio of error to bound.

@@ -40,12 +40,7 @@ pub struct TwistPoint {
 /// # Source
 /// arXiv 2203.01284, Appendix B, Tables 3 and 5.
 pub fn twist(specimen: &Specimen, turns_deg: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
-    let protocol = Protocol {
-        specimen,
-        title: "Twist",
-        far_end: Some(FreeTranslation::AlongAxis),
-        force: None,
-    };
+    let protocol = Protocol::new(specimen, Some(FreeTranslation::AlongAxis), None);
     let settings = |deg: f64| vec![turn(End::End, [0.0, 0.0, deg])];
     protocol.sweep("turn_deg", turns_deg, settings, read_twist)
 }
@@ -92,12 +87,11 @@ pub fn stretch_by_force(
     specimen: &Specimen,
     forces_pn: &[f64],
 ) -> Result<Curve<StretchPoint>, MeasureError> {
-    let protocol = Protocol {
+    let protocol = Protocol::new(
         specimen,
-        title: "Stretch by force",
-        far_end: Some(FreeTranslation::AlongAxis),
-        force: Some(Vector3::z()),
-    };
+        Some(FreeTranslation::AlongAxis),
+        Some(Vector3::z()),
+    );
     protocol.sweep("force_pn", forces_pn, |pn| vec![force(pn)], read_stretch)
 }
 
@@ -112,12 +106,7 @@ pub fn stretch_by_shift(
     specimen: &Specimen,
     strains: &[f64],
 ) -> Result<Curve<StretchPoint>, MeasureError> {
-    let protocol = Protocol {
-        specimen,
-        title: "Stretch by shift",
-        far_end: Some(FreeTranslation::Nowhere),
-        force: None,
-    };
+    let protocol = Protocol::new(specimen, Some(FreeTranslation::Nowhere), None);
     let length = protocol.length_nm()?;
     let settings = |strain: f64| vec![shift(End::End, strain * length)];
     protocol.sweep("strain", strains, settings, |assembly, _, stop| {
@@ -188,85 +177,52 @@ pub fn free_turn_under_tension(
     forces_pn: &[f64],
 ) -> Result<Curve<PulledTwistPoint>, MeasureError> {
     check("force_pn", forces_pn)?;
-    let mut all = Curve {
-        length_nm: 0.0,
-        points: Vec::new(),
-        unreached: Vec::new(),
-    };
+    let mut all = Curve::empty();
     for &force_pn in forces_pn {
-        let curve = free_turn(specimen, force_pn)?;
-        all.length_nm = curve.length_nm;
-        all.append(curve);
+        all.append(free_turn(specimen, force_pn)?);
     }
     Ok(all)
 }
 
+/// Brackets the zero of the torque from turn 0 by growing steps, then applies false position with
+/// halved weight of a retained end (Illinois algorithm).
 fn free_turn(specimen: &Specimen, force_pn: f64) -> Result<Curve<PulledTwistPoint>, MeasureError> {
     let mut curve = held(specimen, force_pn, 0.0)?;
     let Some(blocked) = curve.points.first().map(couple) else {
         return Ok(curve);
     };
-    let mut search = Search::new(blocked);
-    let (mut turn, mut left) = (0.0, blocked);
+    // Turn (deg) and torque (pN nm) on both sides of the zero; the second one is the latest.
+    let (mut from, mut to) = ((0.0, blocked), None::<(f64, f64)>);
+    let mut here = from;
+    let mut turn = -FIRST_STEP_DEG * blocked.signum();
     for _ in 0..TRIALS {
-        turn = search.trial_deg();
         curve = held(specimen, force_pn, turn)?;
-        left = match curve.points.first().map(couple) {
+        let left = match curve.points.first().map(couple) {
             Some(left) if left.abs() > COUPLE_LEFT * blocked.abs() => left,
             _ => return Ok(curve),
         };
-        search.narrow(turn, left);
+        here = (turn, left);
+        let is_before_zero = to.is_none() && left * from.1 > 0.0;
+        match to {
+            Some(last) if left * last.1 < 0.0 => from = last,
+            Some(_) => from.1 *= 0.5,
+            None if is_before_zero => from = here,
+            None => {}
+        }
+        if is_before_zero {
+            turn *= 2.0;
+        } else {
+            turn -= left * (turn - from.0) / (left - from.1);
+            to = Some(here);
+        }
     }
     curve.points.clear();
     // A torque that jumps across zero has several equilibria and no root.
+    let (turn, left) = here;
     let reason = format!("a torque of {left} pN nm remains at {turn} deg after {TRIALS} trials");
     let value = force_pn;
     curve.unreached.push(MissingEquilibrium { value, reason });
     Ok(curve)
-}
-
-/// Brackets the zero from turn 0 by growing steps against the torque, then applies false position
-/// with halved weight of a retained end (Illinois algorithm).
-struct Search {
-    /// Turn (deg) and torque (pN nm) on the far side of the zero, or nearest to it.
-    from: (f64, f64),
-    /// Turn and torque of the latest trial; without a bracket, the next trial.
-    to: (f64, f64),
-    is_bracket: bool,
-}
-
-impl Search {
-    fn new(blocked: f64) -> Self {
-        Self {
-            from: (0.0, blocked),
-            to: (-FIRST_STEP_DEG * blocked.signum(), blocked),
-            is_bracket: false,
-        }
-    }
-
-    fn trial_deg(&self) -> f64 {
-        let ((from, at_from), (to, at_to)) = (self.from, self.to);
-        if self.is_bracket {
-            to - at_to * (to - from) / (at_to - at_from)
-        } else {
-            to
-        }
-    }
-
-    fn narrow(&mut self, turn: f64, couple: f64) {
-        if !self.is_bracket && couple * self.from.1 > 0.0 {
-            self.from = (turn, couple);
-            self.to.0 = 2.0 * turn;
-            return;
-        }
-        if self.is_bracket && couple * self.to.1 < 0.0 {
-            self.from = self.to;
-        } else if self.is_bracket {
-            self.from.1 *= 0.5;
-        }
-        self.to = (turn, couple);
-        self.is_bracket = true;
-    }
 }
 
 fn couple(point: &PulledTwistPoint) -> f64 {
@@ -287,12 +243,11 @@ fn held(
 }
 
 fn pulled(specimen: &Specimen) -> Protocol<'_> {
-    Protocol {
+    Protocol::new(
         specimen,
-        title: "Twist under tension",
-        far_end: Some(FreeTranslation::AlongAxis),
-        force: Some(Vector3::z()),
-    }
+        Some(FreeTranslation::AlongAxis),
+        Some(Vector3::z()),
+    )
 }
 
 /// Axial force (pN) and turn (deg) of the far end.

@@ -15,35 +15,30 @@ pub fn over_samplings<T: Send>(
     seeds: &[u64],
     measure: impl Fn(&Specimen) -> Result<T, MeasureError> + Sync,
 ) -> Result<Vec<T>, MeasureError> {
-    let measured: Vec<_> = seeds
-        .par_iter()
-        .map(|&seed| {
-            let mut sampling = specimen.clone();
-            sampling.filament.monomers.seed = seed;
-            measure(&sampling)
-        })
-        .collect();
-    measured.into_iter().collect()
+    over_samplings_and_azimuths(specimen, seeds, &[0.0], |sampling, _| measure(sampling))
 }
 
-/// Measures every sampling at each azimuth (deg) of a transverse load, in parallel over samplings.
-/// Curves of one sampling are contiguous.
+/// Measures every sampling at each azimuth (deg) of a transverse load, in parallel. Results of one
+/// sampling are contiguous.
 ///
 /// # Errors
 /// The first error of `measure`, in the order of the seeds.
-pub fn over_samplings_and_azimuths<P: Send>(
+pub fn over_samplings_and_azimuths<T: Send>(
     specimen: &Specimen,
     seeds: &[u64],
     azimuths_deg: &[f64],
-    measure: impl Fn(&Specimen, f64) -> Result<Curve<P>, MeasureError> + Sync,
-) -> Result<Vec<Curve<P>>, MeasureError> {
-    let curves = over_samplings(specimen, seeds, |sampling| {
-        let at = azimuths_deg
-            .iter()
-            .map(|&azimuth| measure(sampling, azimuth));
-        at.collect::<Result<Vec<_>, _>>()
-    })?;
-    Ok(curves.into_iter().flatten().collect())
+    measure: impl Fn(&Specimen, f64) -> Result<T, MeasureError> + Sync,
+) -> Result<Vec<T>, MeasureError> {
+    let cases = seeds
+        .iter()
+        .flat_map(|&seed| azimuths_deg.iter().map(move |&at| (seed, at)));
+    let cases: Vec<(u64, f64)> = cases.collect();
+    let measured = cases.par_iter().map(|&(seed, azimuth_deg)| {
+        let mut sampling = specimen.clone();
+        sampling.filament.monomers.seed = seed;
+        measure(&sampling, azimuth_deg)
+    });
+    measured.collect::<Vec<_>>().into_iter().collect()
 }
 
 /// Mean and scatter of `measured` at each value of `prescribed` in the curves, in ascending order.

@@ -1,13 +1,9 @@
 //! Path of certified equilibria through all values of a protocol.
 
 use super::MeasureError;
-use actin_equilibrium::{
-    Certificate, Jumps, Path, PathEnd, PathFailure, PathOptions, Saddles, Stability,
-};
+use actin_equilibrium::{Certificate, Path, PathEnd, PathFailure, PathOptions, Stability};
 use actin_mechanics::State;
-use actin_sim::Assembly;
-use actin_sim::solver;
-use actin_sim::{Equilibrium as Settings, Scene, Task};
+use actin_sim::{Assembly, Equilibrium as Settings, Scene, Task, path_options, solver};
 use std::ops::ControlFlow;
 
 /// Quality of the equilibrium at a measured point.
@@ -94,22 +90,12 @@ pub(crate) fn follow(scene: &Scene) -> Result<EquilibriumPath, MeasureError> {
 
 /// A path that tries each stage in one step, with smaller steps after a failure.
 fn path(settings: &Settings) -> Result<Path, MeasureError> {
-    let options = PathOptions {
-        first_step: settings.largest_step,
-        largest_step: settings.largest_step,
-        smallest_step: settings.smallest_step,
-        saddles: match settings.leave_saddles {
-            0 => Saddles::Keep,
-            attempts => Saddles::Leave(attempts),
-        },
-        jumps: if settings.accept_jumps {
-            Jumps::Accept
-        } else {
-            Jumps::Stop
-        },
-        ..PathOptions::default()
-    };
-    Ok(Path::new(options)?)
+    let first_step = settings.largest_step;
+    let options = path_options(settings);
+    Ok(Path::new(PathOptions {
+        first_step,
+        ..options
+    })?)
 }
 
 fn evidence(end: &PathEnd, saddles_left: usize, jumps: usize) -> Evidence {

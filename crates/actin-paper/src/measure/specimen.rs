@@ -58,7 +58,6 @@ impl Specimen {
     /// The scene with a held start and, unless `far_end` is `None`, a clamp at the far end.
     pub(super) fn scene(
         &self,
-        title: &str,
         far_end: Option<FreeTranslation>,
         loads: Vec<Load>,
         path: Vec<Stage>,
@@ -70,7 +69,7 @@ impl Specimen {
             loads,
             path,
             task: Task::Equilibrium(self.solver.clone()),
-            ..free(title, self.filament.clone())
+            ..free("Measurement", self.filament.clone())
         }
     }
 

@@ -28,18 +28,29 @@ pub struct MissingEquilibrium {
 
 /// Ends and load of a protocol.
 pub(super) struct Protocol<'a> {
-    pub specimen: &'a Specimen,
-    pub title: &'static str,
+    specimen: &'a Specimen,
     /// Translation of the clamped far end; `None` for a free end.
-    pub far_end: Option<FreeTranslation>,
+    far_end: Option<FreeTranslation>,
     /// Direction of load 0, a force of 1 pN on the far end that a setting scales.
-    pub force: Option<Vector3>,
+    force: Option<Vector3>,
 }
 
-impl Protocol<'_> {
+impl<'a> Protocol<'a> {
+    pub(super) fn new(
+        specimen: &'a Specimen,
+        far_end: Option<FreeTranslation>,
+        force: Option<Vector3>,
+    ) -> Self {
+        Self {
+            specimen,
+            far_end,
+            force,
+        }
+    }
+
     fn scene(&self, path: Vec<Stage>) -> Scene {
         let loads = self.force.map(end_force).into_iter().collect();
-        self.specimen.scene(self.title, self.far_end, loads, path)
+        self.specimen.scene(self.far_end, loads, path)
     }
 
     /// Resolved length of the specimen (nm), which can differ from the requested length.
@@ -58,24 +69,21 @@ impl Protocol<'_> {
         read: impl Fn(&Assembly, f64, &PathPoint) -> P,
     ) -> Result<Curve<P>, MeasureError> {
         check(name, values)?;
-        let (mut positive, mut negative): (Vec<f64>, Vec<f64>) =
+        let (positive, negative): (Vec<f64>, Vec<f64>) =
             values.iter().partition(|value| **value > 0.0);
-        let mut curve: Option<Curve<P>> = None;
-        for values in [&mut negative, &mut positive] {
+        let mut curve = Curve::empty();
+        for mut values in [negative, positive] {
             if values.is_empty() {
                 continue;
             }
             values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-            let mut next = self.along(values, &settings, &read)?;
+            let mut next = self.along(&values, &settings, &read)?;
             if values[0] < 0.0 {
                 next.points.reverse();
             }
-            match &mut curve {
-                None => curve = Some(next),
-                Some(curve) => curve.append(next),
-            }
+            curve.append(next);
         }
-        Ok(curve.expect("there is a value, and it is not zero"))
+        Ok(curve)
     }
 
     /// Measures at `values` along one path, in the given order.
@@ -88,26 +96,34 @@ impl Protocol<'_> {
         let path = values.iter().map(|&value| stage(settings(value)));
         let course = follow(&self.scene(path.collect()))?;
         let stops = values.iter().zip(&course.stops);
+        let points = stops.map(|(&value, stop)| read(&course.assembly, value, stop));
         let reason = course.ended.map(|ended| ended.to_string());
+        let reason = reason.unwrap_or_default();
         let missing = values[course.stops.len()..].iter();
+        let missing = missing.map(|&value| MissingEquilibrium {
+            value,
+            reason: reason.clone(),
+        });
         Ok(Curve {
             length_nm: course.assembly.length_nm(),
-            points: stops
-                .map(|(&value, stop)| read(&course.assembly, value, stop))
-                .collect(),
-            unreached: missing
-                .map(|&value| MissingEquilibrium {
-                    value,
-                    reason: reason.clone().unwrap_or_default(),
-                })
-                .collect(),
+            points: points.collect(),
+            unreached: missing.collect(),
         })
     }
 }
 
 impl<P> Curve<P> {
+    pub(super) fn empty() -> Self {
+        Self {
+            length_nm: 0.0,
+            points: Vec::new(),
+            unreached: Vec::new(),
+        }
+    }
+
     /// Appends the points and unreached values of a curve of the same specimen.
     pub(super) fn append(&mut self, mut next: Self) {
+        self.length_nm = next.length_nm;
         self.points.append(&mut next.points);
         self.unreached.append(&mut next.unreached);
     }
@@ -120,31 +136,22 @@ pub(super) fn force(factor: f64) -> Setting {
 
 pub(super) fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureError> {
     let bad = values.iter().find(|v| !v.is_finite() || **v == 0.0);
-    match bad {
-        Some(&value) => Err(MeasureError::Value {
-            name,
+    let (value, rule) = match bad {
+        Some(&value) => (
             value,
-            rule: "finite and not zero, since a secant is undefined at zero",
-        }),
-        None if values.is_empty() => Err(MeasureError::Value {
-            name,
-            value: f64::NAN,
-            rule: "at least one value",
-        }),
-        None => Ok(()),
-    }
+            "finite and not zero, since a secant is undefined at zero",
+        ),
+        None if values.is_empty() => (f64::NAN, "at least one value"),
+        None => return Ok(()),
+    };
+    Err(MeasureError::Value { name, value, rule })
 }
 
 /// Checks that a constant value is finite; zero is valid.
 pub(super) fn check_finite(name: &'static str, value: f64) -> Result<(), MeasureError> {
-    if value.is_finite() {
-        return Ok(());
-    }
-    Err(MeasureError::Value {
-        name,
-        value,
-        rule: "finite",
-    })
+    let rule = "finite";
+    let refused = || MeasureError::Value { name, value, rule };
+    value.is_finite().then_some(()).ok_or_else(refused)
 }
 
 /// The transverse direction at an azimuth (lab frame).

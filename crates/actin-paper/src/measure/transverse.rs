@@ -39,12 +39,7 @@ pub fn bend_by_tip_force(
     azimuth_deg: f64,
 ) -> Result<Curve<TipForcePoint>, MeasureError> {
     let direction = across(azimuth_deg);
-    let protocol = Protocol {
-        specimen,
-        title: "Bending by a tip force",
-        far_end: None,
-        force: Some(direction),
-    };
+    let protocol = Protocol::new(specimen, None, Some(direction));
     let read = |assembly: &Assembly, force_pn: f64, stop: &PathPoint| {
         let length = assembly.length_nm();
         let tip = |state| assembly.tip_nm(state, End::End);
@@ -90,12 +85,7 @@ pub fn bend_by_couples(
     azimuth_deg: f64,
 ) -> Result<Curve<CouplePoint>, MeasureError> {
     let axis = across(azimuth_deg);
-    let protocol = Protocol {
-        specimen,
-        title: "Bending by couples",
-        far_end: Some(FreeTranslation::Freely),
-        force: None,
-    };
+    let protocol = Protocol::new(specimen, Some(FreeTranslation::Freely), None);
     let length = protocol.length_nm()?;
     let settings = |kappa: f64| vec![turn(End::End, axis * (kappa * length).to_degrees())];
     let read = |assembly: &Assembly, curvature: f64, stop: &PathPoint| {
@@ -141,12 +131,7 @@ pub fn shear_by_force(
     azimuth_deg: f64,
 ) -> Result<Curve<ShearPoint>, MeasureError> {
     let direction = across(azimuth_deg);
-    let protocol = Protocol {
-        specimen,
-        title: "Shear",
-        far_end: Some(FreeTranslation::Freely),
-        force: Some(direction),
-    };
+    let protocol = Protocol::new(specimen, Some(FreeTranslation::Freely), Some(direction));
     let read = |assembly: &Assembly, force_pn: f64, stop: &PathPoint| {
         let shift = far_end_shift(assembly, &stop.state).dot(&direction);
         let shear = shift / assembly.length_nm();
@@ -202,12 +187,7 @@ pub fn bend_twisted(
 ) -> Result<Curve<HelixPoint>, MeasureError> {
     check_finite("twist_rad_per_nm", twist_rad_per_nm)?;
     let axis = across(azimuth_deg);
-    let protocol = Protocol {
-        specimen,
-        title: "Bending of a twisted filament",
-        far_end: Some(FreeTranslation::Freely),
-        force: None,
-    };
+    let protocol = Protocol::new(specimen, Some(FreeTranslation::Freely), None);
     let length = protocol.length_nm()?;
     let twist = Vector3::z() * (twist_rad_per_nm * length);
     let settings = |tilt: f64| {
@@ -307,12 +287,7 @@ pub fn bend_under_tension(
     check_finite("force_pn", force_pn)?;
     check("curvature_rad_per_nm", curvatures_rad_per_nm)?;
     let axis = across(azimuth_deg);
-    let protocol = Protocol {
-        specimen,
-        title: "Bending under tension",
-        far_end: Some(FreeTranslation::Freely),
-        force: Some(Vector3::z()),
-    };
+    let protocol = Protocol::new(specimen, Some(FreeTranslation::Freely), Some(Vector3::z()));
     let length = protocol.length_nm()?;
     let settings = |kappa: f64| {
         let half = (axis * (0.5 * kappa * length)).map(f64::to_degrees);

@@ -120,8 +120,9 @@ fn hint(assembly: &Assembly, cause: &PathError) -> &'static str {
     }
 }
 
-fn path(settings: &Settings) -> Result<Path, SceneProblem> {
-    let options = PathOptions {
+/// Returns the options of a path of equilibria from the settings of a task.
+pub fn path_options(settings: &Settings) -> PathOptions {
+    PathOptions {
         first_step: settings.largest_step.min(0.1).max(settings.smallest_step),
         smallest_step: settings.smallest_step,
         largest_step: settings.largest_step,
@@ -135,8 +136,7 @@ fn path(settings: &Settings) -> Result<Path, SceneProblem> {
             Jumps::Stop
         },
         ..PathOptions::default()
-    };
-    Path::new(options).map_err(problem_at("task"))
+    }
 }
 
 struct Follower<'a> {
@@ -286,7 +286,7 @@ impl<'a> Follower<'a> {
         let result = if self.assembly.drive.is_still() {
             self.solve(newton, state)
         } else {
-            let path = path(self.settings)?;
+            let path = Path::new(path_options(self.settings)).map_err(problem_at("task"))?;
             let mut stages = self.position.stage..self.assembly.drive.stages();
             stages.try_for_each(|stage| {
                 if self.records.lost.is_some() {

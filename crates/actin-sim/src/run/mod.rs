@@ -22,6 +22,7 @@ mod steps;
 mod unknowns;
 
 pub use brownian::RelaxationTimes;
+pub use equilibrium::path_options;
 pub(crate) use estimate::composition_of;
 pub use estimate::{Estimate, LongestStep, composition};
 pub use hinge::HingeSlip;

@@ -5,12 +5,12 @@
 
 pub(crate) mod axis;
 mod buckle;
-#[cfg(test)]
-mod fixture;
 mod linking;
 mod profile;
 mod ribbon;
 mod section_loads;
+#[cfg(test)]
+mod tests;
 mod twist;
 mod writhe;
 

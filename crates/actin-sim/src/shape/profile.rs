@@ -160,7 +160,7 @@ fn spread(energy: f64, [from, to]: [f64; 2], cells: &[f64], energies: &mut [f64]
 mod tests {
     use super::*;
     use crate::Scene;
-    use crate::shape::fixture::{CLAMPS, SECTIONS};
+    use crate::shape::tests::{CLAMPS, SECTIONS};
     use actin_mechanics::{Xorshift, perturb};
 
     const QUASI_HARMONIC: &str = "Brownian(

@@ -270,7 +270,7 @@ pub(super) fn is_parallel(one: Vector3, other: Vector3) -> bool {
 mod tests {
     use super::*;
     use crate::Scene;
-    use crate::shape::fixture::{CLAMPS, SECTIONS};
+    use crate::shape::tests::{CLAMPS, SECTIONS};
     use actin_mechanics::rotation;
     use actin_mechanics::testing::move_rigidly;
     use actin_mechanics::{Xorshift, perturb};

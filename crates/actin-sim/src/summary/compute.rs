@@ -133,19 +133,19 @@ impl From<Residual> for ResidualSummary {
 mod tests {
     use super::*;
 
-    use crate::summary::fixture;
+    use crate::summary::tests;
     use actin_mechanics::Vector3;
 
     fn last_summary(assembly: &Assembly) -> (Record, Summary) {
-        let last = fixture::trajectory(assembly).records.pop().unwrap();
-        let summary = Summary::new(assembly, &last, &fixture::outcome());
+        let last = tests::trajectory(assembly).records.pop().unwrap();
+        let summary = Summary::new(assembly, &last, &tests::outcome());
         (last, summary)
     }
 
     /// The displacement of the clamped end would be zero.
     #[test]
     fn the_tip_is_the_free_end() {
-        let at_end = fixture::clamped_start();
+        let at_end = tests::clamped_start();
         let (last, summary) = last_summary(&at_end);
         let tip = last.state.points.position.get(at_end.points.len() - 1);
         assert_eq!(Vector3::from(summary.tip_nm), tip);
@@ -153,7 +153,7 @@ mod tests {
         let moved = Vector3::from(summary.tip_displacement_nm);
         assert_eq!(moved, tip - built);
 
-        let at_start = fixture::clamped_end();
+        let at_start = tests::clamped_end();
         let (last, summary) = last_summary(&at_start);
         let tip = last.state.points.position.get(0);
         assert_eq!(Vector3::from(summary.tip_nm), tip);
@@ -163,7 +163,7 @@ mod tests {
     /// The force is extension times stiffness and points from the site to the anchor.
     #[test]
     fn linkers_are_reported() {
-        let assembly = fixture::linked();
+        let assembly = tests::linked();
         let (last, summary) = last_summary(&assembly);
         let [linker] = &summary.linkers[..] else {
             panic!("one linker, found {}", summary.linkers.len());
@@ -183,7 +183,7 @@ mod tests {
     /// Energies of linkers belong to no filament. Top-level keys describe filament 0.
     #[test]
     fn filaments_are_reported_one_by_one() {
-        let assembly = fixture::pair();
+        let assembly = tests::pair();
         let (last, summary) = last_summary(&assembly);
         let [first, second] = &summary.filaments[..] else {
             panic!("two filaments, found {}", summary.filaments.len());
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn energies_are_those_of_the_last_record() {
-        let assembly = fixture::clamped_start();
+        let assembly = tests::clamped_start();
         let (last, summary) = last_summary(&assembly);
         let energy = &summary.energy_pn_nm;
         let potential: f64 = last.energies_pn_nm.iter().sum();

@@ -297,6 +297,4 @@ fn below(
 }
 
 #[cfg(test)]
-mod fixture;
-#[cfg(test)]
 mod tests;

@@ -44,14 +44,14 @@ impl ThermalSummary {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::summary::fixture;
+    use crate::summary::tests;
     use crate::{Scene, Summary, Trajectory};
 
     /// The second half of 5, 1 and 3 pN nm has a mean of 2 pN nm.
     #[test]
     fn the_temperature_is_that_of_the_second_half() {
-        let cold = fixture::clamped_start();
-        let records = fixture::trajectory(&cold).records;
+        let cold = tests::clamped_start();
+        let records = tests::trajectory(&cold).records;
         assert_eq!(ThermalSummary::new(&cold, (1.0, 3)), None);
         let text = cold.scene.to_ron();
         let mut scene = Scene::from_ron(&text).unwrap();
@@ -68,7 +68,7 @@ mod tests {
         for (record, kinetic) in records.iter_mut().zip([5.0, 1.0, 3.0]) {
             record.row.kinetic_pn_nm = kinetic;
         }
-        let summary = Summary::from_run(&warm, &Trajectory { records }, &fixture::outcome());
+        let summary = Summary::from_run(&warm, &Trajectory { records }, &tests::outcome());
         let summary = summary.unwrap().thermal.unwrap();
         assert_eq!((summary.temperature_k, summary.seed), (300.0, u64::MAX));
         let expected = 2.0 * 2.0 / (warm.counts().dofs as f64 * BOLTZMANN_PN_NM_PER_K);

@@ -148,14 +148,28 @@ impl<'a> Setup<'a> {
         }
     }
 
-    fn run(&self, name: &str, scene: &Scene) -> Result<Sample, TradeError> {
-        (self.watch.report)(name);
-        let limits = Limits {
+    pub(super) fn limits(&self, records: Option<usize>) -> Limits<'_> {
+        Limits {
             budget: Some(self.options.budget),
-            records: None,
+            records,
             is_interrupted: self.watch.is_interrupted,
-        };
-        Sample::new(scene, &self.measurer, limits).map_err(|failure| match failure {
+        }
+    }
+
+    /// Reports and runs a scene.
+    pub(super) fn sample(
+        &self,
+        what: &str,
+        scene: &Scene,
+        limits: Limits<'_>,
+    ) -> Result<Sample, TrialFailure> {
+        (self.watch.report)(what);
+        Sample::new(scene, &self.measurer, limits)
+    }
+
+    fn run(&self, name: &str, scene: &Scene) -> Result<Sample, TradeError> {
+        let sample = self.sample(name, scene, self.limits(None));
+        sample.map_err(|failure| match failure {
             TrialFailure::Interrupted => TradeError::Interrupted,
             TrialFailure::Refused(problem) => TradeError::Refused(problem),
             TrialFailure::Failed(cause) => TradeError::ReferenceFails {

@@ -5,7 +5,7 @@ use super::ladder::{self, Proposal};
 use super::measure::Values;
 use super::reference::Setup;
 use super::resolution::{DRAWN, drawn, with_records_of};
-use super::run::{Limits, RunResult, TrialFailure};
+use super::run::{RunResult, TrialFailure};
 use super::sample::{SEEDS, Sample};
 use super::{Candidate, Options, Reference, SETTLED, Trade, TradeCallbacks, TradeError, worst};
 use crate::Counts;
@@ -172,17 +172,9 @@ impl<'a> Study<'a> {
         Some((SEEDS as f64 * ratio * ratio).ceil().max(SEEDS as f64))
     }
 
-    fn limits(&self) -> Limits<'_> {
-        Limits {
-            budget: Some(self.setup.options.budget),
-            records: self.records,
-            is_interrupted: self.setup.watch.is_interrupted,
-        }
-    }
-
     fn run(&self, what: &str, scene: &Scene) -> Result<Sample, TrialFailure> {
-        (self.setup.watch.report)(what);
-        let sample = Sample::new(scene, &self.setup.measurer, self.limits());
+        let limits = self.setup.limits(self.records);
+        let sample = self.setup.sample(what, scene, limits);
         if let Ok(sample) = &sample {
             self.spent_s.set(self.spent_s.get() + sample.wall_s);
         }
@@ -262,8 +254,8 @@ impl<'a> Study<'a> {
         }
         let branches = self.branches.get_or_init(|| {
             let scene = &self.setup.full.scene;
-            let (found, wall_s) =
-                branches::other_states(scene, &self.setup.measurer, self.limits());
+            let limits = self.setup.limits(self.records);
+            let (found, wall_s) = branches::other_states(scene, &self.setup.measurer, limits);
             self.spent_s.set(self.spent_s.get() + wall_s);
             found
         });

@@ -60,9 +60,9 @@ fn reproduce(plan: &Plan, draft: &mut Draft<'_>) -> Result<(), String> {
     let mut results = Results::default();
     let mut failures = Vec::new();
     let mut keep = |failure| failures.push(failure);
-    let motions = draft.solve(&plan.moved(), solve::motion).into_iter();
+    let motions = draft.attempt(&plan.moved(), solve::motion).into_iter();
     results.motions = motions.filter_map(|r| r.map_err(&mut keep).ok()).collect();
-    let outcomes = draft.solve(&plan.cases(), solve::outcome).into_iter();
+    let outcomes = draft.attempt(&plan.cases(), solve::outcome).into_iter();
     results.outcomes = outcomes.filter_map(|r| r.map_err(&mut keep).ok()).collect();
     results.failures = failures;
     let values: Values<'_> = &[
@@ -125,20 +125,19 @@ impl Plan {
     }
 
     fn figure10(quick: bool) -> Self {
+        let (turns, started): (&[i32], &[i32]) = if quick {
+            (&[180, -180, 360], &[360])
+        } else {
+            (&[180, -180, 270, -270, 360, -360], &[360, -360])
+        };
         Self {
             id: "fig10",
             rods: "rods with the published B3(kappa) and xi(kappa)",
             models: models_of("fig10", quick),
-            resolutions: resolutions(quick),
-            turns: if quick {
-                &[180, -180, 360]
-            } else {
-                &[180, -180, 270, -270, 360, -360]
-            },
+            turns,
             seeds: if quick { 1 } else { 4 },
-            starts: if quick { Start::orders() } else { Start::all() },
-            started: if quick { &[360] } else { &[360, -360] },
-            quick,
+            started,
+            ..Self::figure8(quick)
         }
     }
 

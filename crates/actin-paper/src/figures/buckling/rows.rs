@@ -4,7 +4,7 @@ use super::case::turn_name;
 use super::solve::{Motion, Outcome, STOP};
 use super::starts::is_same;
 use super::{OBSERVABLES, Observable, Plan, Results};
-use crate::figures::draft::{Column, Draft, number};
+use crate::figures::draft::{Column, Draft, number, text};
 use crate::figures::expected::Holds;
 use crate::figures::model::{Model, Resolution};
 use crate::statistics::{largest, sample};
@@ -199,7 +199,7 @@ const COLUMNS: [Column<Outcome>; 23] = [
     ("twist_turns", |o| number(o.measured.twist_turns)),
     ("writhe", |o| number(o.measured.writhe)),
     ("beyond_data_per_nm", |o| {
-        o.measured.beyond_per_nm.map_or(String::new(), number)
+        text(o.measured.beyond_per_nm.map(number))
     }),
     ("stable", |o| o.is_stable().to_string()),
     ("negative_eigenvalues", |o| text(o.doubtful.map(|n| n[0]))),
@@ -211,10 +211,6 @@ const COLUMNS: [Column<Outcome>; 23] = [
     ("time_ns", |o| number(o.time_ns)),
     ("force_evaluations", |o| o.force_evaluations.to_string()),
 ];
-
-fn text(count: Option<impl ToString>) -> String {
-    count.map_or(String::new(), |n| n.to_string())
-}
 
 pub(super) fn tables(draft: &Draft<'_>, results: &Results) -> Result<(), String> {
     let id = draft.id;

@@ -81,11 +81,10 @@ fn solve_all(
     draft: &Draft<'_>,
     moving: bool,
 ) -> Result<Vec<Outcome>, String> {
-    let outcomes = draft.solve(&cases(figure, draft.quick), |case| {
+    draft.solve(&cases(figure, draft.quick), |case| {
         let outcome = Outcome::new(case, moving && (case.is_drawn() || case.is_drawn_mean()));
         outcome.map_err(|e| format!("{} {}: {e}", figure.id, case.resolution.name()))
-    });
-    outcomes.into_iter().collect()
+    })
 }
 
 fn cases(figure: &'static Figure, quick: bool) -> Vec<Case> {

@@ -2,7 +2,7 @@
 
 use super::Figure;
 use super::solve::{Balance, Motion, Outcome, SAME_PN_NM};
-use crate::figures::draft::{Column, Draft, number, residuals};
+use crate::figures::draft::{Column, Draft, number, residuals, text};
 use crate::figures::expected::Holds;
 use crate::figures::model::{Model, models};
 use crate::figures::motion::energy_decays;
@@ -98,29 +98,14 @@ pub(super) fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
 fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: &Model) {
     let all = Spread::over_seeds(outcomes, model);
     let (first, words) = (&all[0], &model.words);
+    let (count, energies) = (first.energy.count, first.energies());
+    let energy = format!("(max - min)/mean over {count} mixed resolutions, {energies}");
+    let node = format!("largest between {}", first.farthest);
+    let force = "largest (max - min)/mean of the force of a linker".to_owned();
     let picks: [(&str, &str, Pick, String); 3] = [
-        (
-            "energy_spread",
-            "",
-            |s| s.energy.spread(),
-            format!(
-                "(max - min)/mean over {} mixed resolutions, {}",
-                first.energy.count,
-                first.energies()
-            ),
-        ),
-        (
-            "node_spread",
-            "nm",
-            |s| s.node,
-            format!("largest between {}", first.farthest),
-        ),
-        (
-            "linker_force_spread",
-            "",
-            |s| s.force,
-            "largest (max - min)/mean of the force of a linker".into(),
-        ),
+        ("energy_spread", "", |s| s.energy.spread(), energy),
+        ("node_spread", "nm", |s| s.node, node),
+        ("linker_force_spread", "", |s| s.force, force),
     ];
     for (name, unit, pick, note) in picks {
         let quantity = format!("{name}{}", model.name);
@@ -202,20 +187,13 @@ fn motions(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
 /// Claims that deviations of shape and energy are larger in Figure 6 than in Figure 5. Models of the paper have
 /// verdicts, with energies in pN nm as in Figure 6(c).
 pub(super) fn larger_claims(draft: &mut Draft<'_>, figures: [&[Outcome]; 2]) {
+    let shape = "deviations of shape are more noticeable";
+    let range = "energies vary more (in pN nm)";
+    let spread = "energies vary more (relative to the mean)";
     let claims: [(&str, &str, Pick); 3] = [
-        (
-            "node_spread",
-            "deviations of shape are more noticeable",
-            |s| s.node,
-        ),
-        ("energy_range", "energies vary more (in pN nm)", |s| {
-            s.energy.range()
-        }),
-        (
-            "energy_spread",
-            "energies vary more (relative to the mean)",
-            |s| s.energy.spread(),
-        ),
+        ("node_spread", shape, |s| s.node),
+        ("energy_range", range, |s| s.energy.range()),
+        ("energy_spread", spread, |s| s.energy.spread()),
     ];
     for model in models("linkers", false) {
         let spreads = figures.map(|outcomes| Spread::over_seeds(outcomes, model));
@@ -261,7 +239,7 @@ const COLUMNS: [Column<Outcome>; 13] = [
     ("linkers_pn_nm", |o| number(o.lowest.linkers)),
     ("stable", |o| o.lowest.is_stable.to_string()),
     ("lowest_eigenvalue_pn_per_nm", |o| {
-        o.lowest.lowest.map_or(String::new(), number)
+        text(o.lowest.lowest.map(number))
     }),
     ("newton_iterations", |o| o.lowest.iterations.to_string()),
     ("roll_deg", |o| format!("{:.3}", o.lowest.roll)),
@@ -281,7 +259,7 @@ const COLUMNS: [Column<Outcome>; 13] = [
 ];
 
 fn of_motion(outcome: &Outcome, cell: fn(&Motion) -> String) -> String {
-    outcome.motion.as_ref().map_or(String::new(), cell)
+    text(outcome.motion.as_ref().map(cell))
 }
 
 pub(super) fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {

@@ -3,11 +3,8 @@
 use super::Case;
 use crate::centre_line::CentreLine;
 use crate::run::{Shape, SolvedScene};
-use actin_mechanics::State;
 use actin_sim::{Assembly, Equilibrium, Part, Scene, Task};
 
-/// Rotations of the built filament about its axis as initial guesses (deg).
-const STARTS_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
 /// Tolerance of the energies of equal equilibria (pN nm). The effect of a residual of 1e-7 is much smaller.
 pub(super) const SAME_PN_NM: f64 = 1e-3;
 
@@ -58,9 +55,9 @@ pub(super) struct Outcome {
 impl Outcome {
     pub(super) fn new(case: &Case, moving: bool) -> Result<Self, String> {
         let scene = case.scene()?;
-        let starts = STARTS_DEG.iter();
-        let found = starts.map(|turn| balance(&scene, &Start::Turned(*turn)));
-        let mut found: Vec<Balance> = found.collect::<Result<_, _>>()?;
+        let rolled = SolvedScene::rolled(&statics(&scene));
+        let rolled = rolled.map_err(|error| format!("Newton: {error}"))?;
+        let mut found: Vec<Balance> = rolled.iter().map(describe).collect();
         let starts = found.iter().map(|b| b.energy).collect();
         let motion = moving.then(|| motion(&scene)).transpose()?;
         found.extend(motion.as_ref().map(|m| m.limit.clone()));
@@ -75,7 +72,7 @@ impl Outcome {
         let lowest = found
             .into_iter()
             .reduce(lower)
-            .expect("`STARTS_DEG` is not empty");
+            .expect("there are several starts");
         Ok(Self {
             case: *case,
             lowest,
@@ -85,24 +82,15 @@ impl Outcome {
     }
 }
 
-enum Start<'a> {
-    Turned(f64),
-    State(&'a State),
-}
-
-fn balance(scene: &Scene, start: &Start<'_>) -> Result<Balance, String> {
-    let mut scene = scene.clone();
-    scene.task = Task::Equilibrium(Equilibrium {
+fn statics(scene: &Scene) -> Scene {
+    let task = Task::Equilibrium(Equilibrium {
         lowest_eigenvalue: true,
         ..Equilibrium::default()
     });
-    let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
-    match start {
-        Start::Turned(degrees) => assembly.roll(degrees.to_radians()),
-        Start::State(state) => *assembly.system.state_mut() = (*state).clone(),
+    Scene {
+        task,
+        ..scene.clone()
     }
-    let solved = SolvedScene::run(assembly).map_err(|error| format!("Newton: {error}"))?;
-    Ok(describe(&solved))
 }
 
 fn describe(solved: &SolvedScene) -> Balance {
@@ -129,7 +117,10 @@ fn describe(solved: &SolvedScene) -> Balance {
 
 fn motion(scene: &Scene) -> Result<Motion, String> {
     let moved = SolvedScene::new(scene).map_err(|error| format!("dynamics: {error}"))?;
-    let limit = balance(scene, &Start::State(moved.state()))?;
+    let mut assembly = Assembly::build(&statics(scene)).map_err(|e| e.to_string())?;
+    *assembly.system.state_mut() = moved.state().clone();
+    let limit = SolvedScene::run(assembly).map_err(|error| format!("Newton: {error}"))?;
+    let limit = describe(&limit);
     let end = CentreLine::new(&moved.assembly, moved.state());
     let energies = moved.records.iter().map(|record| {
         let potential = record.potential_pn_nm();

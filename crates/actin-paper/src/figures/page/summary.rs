@@ -33,17 +33,19 @@ pub(super) fn head(artefacts: &[Artefact], quick: bool, version: &str) -> Markup
 }
 
 pub(super) fn words(artefacts: &[Artefact]) -> Markup {
+    let all = all(artefacts);
     html! {
         (findings(artefacts))
-        (judged(artefacts))
+        p {
+            (all.compared()) " numbers are compared: "
+            span class="pass" { (all.agree) " agree" } " within their tolerance; "
+            span class="miss" { (all.missed) " do not" } ". " (all.measured)
+            " further numbers have no verdict. All numbers and pictures are from simulations of the run that wrote \
+             this page. The run fitted only the laws of Figure 9; rows named fitted use a law fitted to monomers. \
+             The following choices were made in advance to reproduce Tables 3, 4 and 5."
+        }
         p { strong { "Choices." } " " (TEXTS.choices) }
     }
-}
-
-pub(super) fn how_to_read(page: &mut Page<'_>) -> Markup {
-    let stops = palette::chosen().ramp().stops().iter();
-    let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
-    reading(&stops)
 }
 
 pub(super) fn verdicts(artefacts: &[Artefact]) -> Markup {
@@ -58,21 +60,9 @@ pub(super) fn verdicts(artefacts: &[Artefact]) -> Markup {
     }
 }
 
-fn judged(artefacts: &[Artefact]) -> Markup {
-    let all = all(artefacts);
-    html! {
-        p {
-            (all.compared()) " numbers are compared: "
-            span class="pass" { (all.agree) " agree" } " within their tolerance; "
-            span class="miss" { (all.missed) " do not" } ". " (all.measured)
-            " further numbers have no verdict. All numbers and pictures are from simulations of the run that wrote \
-             this page. The run fitted only the laws of Figure 9; rows named fitted use a law fitted to monomers. \
-             The following choices were made in advance to reproduce Tables 3, 4 and 5."
-        }
-    }
-}
-
-fn reading(stops: &[String]) -> Markup {
+pub(super) fn how_to_read(page: &mut Page<'_>) -> Markup {
+    let stops = palette::chosen().ramp().stops().iter();
+    let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
     let ramp = format!("background:linear-gradient(to right,{})", stops.join(","));
     html! {
         p {
@@ -223,11 +213,8 @@ fn group(artefacts: &[Artefact], origin: Origin, title: &str) -> Markup {
         let rows = a.rows.iter().filter(|row| row.origin == Some(origin));
         rows.filter(|row| row.pass.is_some()).cloned().collect()
     };
-    let each: Vec<(&str, Vec<Row>)> = artefacts.iter().map(|a| (a.id, judged(a))).collect();
-    let each: Vec<_> = each
-        .into_iter()
-        .filter(|(_, rows)| !rows.is_empty())
-        .collect();
+    let each = artefacts.iter().map(|a| (a.id, judged(a)));
+    let each: Vec<(&str, Vec<Row>)> = each.filter(|(_, rows)| !rows.is_empty()).collect();
     let all: Vec<Row> = each.iter().flat_map(|(_, rows)| rows.clone()).collect();
     if all.is_empty() {
         return Markup::default();

@@ -24,10 +24,7 @@ pub(super) fn bonds(drawing: &Drawing<'_>, width: f64) -> BondItems {
     for bonds in sections.filter_map(|i| drawing.assembly.bonds_of(i)) {
         for pair in bonds.pairs() {
             let ends = [pair.lower, pair.upper].map(|k| bonds.monomers().point(k));
-            if !ends
-                .iter()
-                .all(|&i| drawing.shows(drawing.assembly.points[i].s_nm))
-            {
+            if !are_shown(drawing, ends) {
                 continue;
             }
             let kind = pair.upper - pair.lower - 1;
@@ -40,6 +37,11 @@ pub(super) fn bonds(drawing: &Drawing<'_>, width: f64) -> BondItems {
         }
     }
     drawn
+}
+
+fn are_shown(drawing: &Drawing<'_>, points: [usize; 2]) -> bool {
+    let mut places = points.iter().map(|&i| drawing.assembly.points[i].s_nm);
+    places.all(|s_nm| drawing.shows(s_nm))
 }
 
 /// Cylinders of rod segments with centre lines and nodes.
@@ -60,18 +62,10 @@ pub(super) fn rods(drawing: &Drawing<'_>, opacity: f64) -> Vec<Item> {
 
 pub(super) fn segment_frames(drawing: &Drawing<'_>, length_nm: f64) -> Vec<Item> {
     let mut items = Vec::new();
-    for section in drawing
-        .assembly
-        .sections
-        .iter()
-        .filter(|s| !s.is_ellipsoids())
-    {
+    let sections = drawing.assembly.sections.iter();
+    for section in sections.filter(|s| !s.is_ellipsoids()) {
         for (axes, node) in section.frames.clone().zip(section.points.clone()) {
-            let nodes = [node, node + 1];
-            if nodes
-                .iter()
-                .all(|&i| drawing.shows(drawing.assembly.points[i].s_nm))
-            {
+            if are_shown(drawing, [node, node + 1]) {
                 let middle = 0.5 * (drawing.place(node) + drawing.place(node + 1));
                 items.extend(frame(drawing, axes, middle, length_nm));
             }
@@ -126,44 +120,33 @@ fn held(drawing: &Drawing<'_>, filament: usize, end: End) -> Option<[Vector3; 3]
 pub(super) fn imposed(drawing: &Drawing<'_>, radius_nm: f64) -> Vec<Item> {
     let stages = drawing.assembly.scene.path.iter();
     let settings = stages.flat_map(|stage| &stage.set);
-    settings
-        .flat_map(|setting| match setting {
-            Setting::Shift {
-                filament,
-                end,
-                shift_nm,
-            } => shift(drawing, *filament, *end, (*shift_nm).into()),
-            Setting::Turn {
-                filament,
-                end,
-                turn_deg,
-            } => turn(drawing, *filament, *end, (*turn_deg).into(), radius_nm),
-            // Loads and anchors are drawn in their final state.
-            Setting::LoadFactor { .. } | Setting::Shear { .. } | Setting::Anchor { .. } => {
-                Vec::new()
-            }
-        })
-        .collect()
+    let items = settings.filter_map(|setting| match *setting {
+        Setting::Shift {
+            filament,
+            end,
+            shift_nm,
+        } => Some(shift(held(drawing, filament, end)?, shift_nm.into())),
+        Setting::Turn {
+            filament,
+            end,
+            turn_deg,
+        } => Some(turn(
+            held(drawing, filament, end)?,
+            turn_deg.into(),
+            radius_nm,
+        )),
+        // Loads and anchors are drawn in their final state.
+        Setting::LoadFactor { .. } | Setting::Shear { .. } | Setting::Anchor { .. } => None,
+    });
+    items.flatten().collect()
 }
 
-fn shift(drawing: &Drawing<'_>, filament: usize, end: End, shift: Vector3) -> Vec<Item> {
-    let Some([at, outward, _]) = held(drawing, filament, end) else {
-        return Vec::new();
-    };
+fn shift([at, outward, _]: [Vector3; 3], shift: Vector3) -> Vec<Item> {
     let to = at + outward * CLEAR_NM;
     vec![style::arrow([to - shift, to])]
 }
 
-fn turn(
-    drawing: &Drawing<'_>,
-    filament: usize,
-    end: End,
-    turn_deg: Vector3,
-    radius_nm: f64,
-) -> Vec<Item> {
-    let Some([at, outward, across]) = held(drawing, filament, end) else {
-        return Vec::new();
-    };
+fn turn([at, outward, across]: [Vector3; 3], turn_deg: Vector3, radius_nm: f64) -> Vec<Item> {
     let centre = at + outward * CLEAR_NM;
     let on_arc = |k: u32| {
         let share = f64::from(k) / f64::from(PIECES);

@@ -117,7 +117,7 @@ fn solve(draft: &Draft<'_>) -> Result<(&'static Sheet, Vec<SolvedScene>), String
         let scene = scenario(&format!("{name}.ron"))?;
         SolvedScene::new(&scene).map_err(|e| format!("{name}.ron: {e}"))
     });
-    Ok((sheet, solved.into_iter().collect::<Result<_, String>>()?))
+    Ok((sheet, solved?))
 }
 
 fn finish(draft: &mut Draft<'_>, sheet: &Sheet, solved: &[SolvedScene]) -> Result<(), String> {

@@ -1,7 +1,7 @@
 //! Twisted filaments with many bond samplings for Tables 3 and 5.
 
 use crate::figures::draft::Draft;
-use crate::measure::{Curve, MeasureError, Specimen, Stability, TwistPoint, twist};
+use crate::measure::{Specimen, Stability, TwistPoint, twist};
 use crate::published::{Entry, Table, entries};
 use crate::statistics::{SampleStatistics, sample};
 use actin_sim::{Anchors, Monomers, ellipsoid_constants as monomer};
@@ -53,10 +53,10 @@ impl Kind {
         }
     }
 
-    fn twist(&self, seed: u64, turns: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
+    /// Filament with this number of rises between the inner clamped monomers.
+    pub(super) fn specimen(&self, rises: f64, seed: u64) -> Specimen {
         let monomers = self.monomers(seed);
-        let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
-        twist(&specimen, turns)
+        Specimen::ellipsoids(rises * monomers.rise_nm, monomers)
     }
 
     pub(super) fn monomers(&self, seed: u64) -> Monomers {
@@ -70,17 +70,14 @@ impl Kind {
     }
 }
 
-#[derive(Clone, Debug)]
-pub(super) struct Sampling {
-    pub kind: Kind,
-    pub seed: u64,
-    /// Points in the order of the entries of the paper.
-    pub curve: Curve<TwistPoint>,
-}
+/// Kind and seed of a filament, and one of its points.
+pub(super) type Sampled = (Kind, u64, TwistPoint);
 
 #[derive(Clone, Debug)]
 pub(super) struct Ensemble {
-    pub samplings: Vec<Sampling>,
+    points: Vec<Sampled>,
+    /// Angles without an equilibrium.
+    pub unreached: Vec<String>,
     pub seeds: u64,
 }
 
@@ -113,7 +110,8 @@ pub(super) fn ensemble(draft: &Draft<'_>) -> Result<&'static Ensemble, String> {
         .get_or_init(|| {
             let mut all = core(draft)?.clone();
             let others = Ensemble::run(draft, other_kinds())?;
-            all.samplings.extend(others.samplings);
+            all.points.extend(others.points);
+            all.unreached.extend(others.unreached);
             Ok(all)
         })
         .as_ref()
@@ -127,64 +125,60 @@ impl Ensemble {
         let seeds = if draft.quick { QUICK_SEEDS } else { SEEDS };
         let kinds = kinds.into_iter();
         let cases = kinds.flat_map(|kind| kind.seeds(seeds).map(move |seed| (kind, seed)));
-        let samplings = draft.solve(&cases.collect::<Vec<_>>(), |&(kind, seed)| {
-            let curve = kind.twist(seed, &turns);
-            let curve = curve.map_err(|e| format!("{}, seed {seed}: {e}", kind.name()))?;
-            Ok(Sampling { kind, seed, curve })
-        });
-        let samplings = samplings.into_iter().collect::<Result<_, String>>()?;
-        Ok(Self { samplings, seeds })
+        let cases: Vec<(Kind, u64)> = cases.collect();
+        let curves = draft.solve(&cases, |&(kind, seed)| {
+            let curve = twist(&kind.specimen(RISES, seed), &turns);
+            curve.map_err(|e| format!("{}, seed {seed}: {e}", kind.name()))
+        })?;
+        let (mut points, mut unreached) = (Vec::new(), Vec::new());
+        for ((kind, seed), curve) in cases.into_iter().zip(curves) {
+            points.extend(curve.points.into_iter().map(|point| (kind, seed, point)));
+            for missing in curve.unreached {
+                let (kind, turn, reason) = (kind.name(), missing.value, missing.reason);
+                unreached.push(format!("{kind} seed {seed} at {turn:.1} deg: {reason}"));
+            }
+        }
+        Ok(Self {
+            points,
+            unreached,
+            seeds,
+        })
     }
 
     pub(super) fn kinds(&self) -> Vec<Kind> {
-        let mut kinds: Vec<Kind> = self.samplings.iter().map(|s| s.kind).collect();
+        let mut kinds: Vec<Kind> = self.points.iter().map(|point| point.0).collect();
         kinds.dedup();
         kinds
     }
 
-    pub(super) fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Sampling> {
-        self.samplings.iter().filter(move |s| s.kind == kind)
+    /// Points of one kind at the twist of an entry, by seed.
+    pub(super) fn points(&self, kind: Kind, entry: &Entry) -> impl Iterator<Item = &Sampled> {
+        let turn = turn_deg(entry);
+        // Neighbouring angles are ten degrees apart.
+        let is_here = move |point: &TwistPoint| (point.turn_deg - turn).abs() < 1e-6;
+        let all = self.points.iter();
+        all.filter(move |(of, _, point)| *of == kind && is_here(point))
     }
 
-    /// Seeds and points of one kind at the twist of an entry.
-    pub(super) fn points(&self, kind: Kind, entry: &Entry) -> Vec<(u64, TwistPoint)> {
-        self.of_kind(kind)
-            .filter_map(|s| point_at(&s.curve, entry).map(|point| (s.seed, point)))
-            .collect()
+    /// Value of a table at an entry for one seed; `None` if it was not reached.
+    pub(super) fn value(&self, kind: Kind, seed: u64, entry: &Entry, table: Table) -> Option<f64> {
+        let found = self.points(kind, entry).find(|point| point.1 == seed);
+        found.map(|(.., point)| value(point, table))
     }
 
     pub(super) fn sample(&self, kind: Kind, entry: &Entry, table: Table) -> SampleStatistics {
         let points = self.points(kind, entry);
-        sample(points.iter().map(|(_, point)| value(point, table)))
+        sample(points.map(|(.., point)| value(point, table)))
     }
 
     pub(super) fn doubts(&self, kind: Kind, entries: &[Entry]) -> StabilityCounts {
         let mut doubts = StabilityCounts::default();
         for entry in entries {
-            for (_, point) in self.points(kind, entry) {
-                doubts.add(&point);
+            for (.., point) in self.points(kind, entry) {
+                doubts.add(point);
             }
         }
         doubts
-    }
-
-    pub(super) fn unreached(&self) -> Vec<String> {
-        let mut all = Vec::new();
-        for s in &self.samplings {
-            for missing in &s.curve.unreached {
-                let (kind, seed) = (s.kind.name(), s.seed);
-                let (turn, reason) = (missing.value, &missing.reason);
-                all.push(format!("{kind} seed {seed} at {turn:.1} deg: {reason}"));
-            }
-        }
-        all
-    }
-}
-
-impl Sampling {
-    /// Value of a table at an entry; `None` if it was not reached.
-    pub(super) fn value(&self, entry: &Entry, table: Table) -> Option<f64> {
-        point_at(&self.curve, entry).map(|point| value(&point, table))
     }
 }
 
@@ -218,16 +212,6 @@ pub(super) fn value(point: &TwistPoint, table: Table) -> f64 {
 /// Turn of our filament at the twist of an entry (deg).
 pub(super) fn turn_deg(entry: &Entry) -> f64 {
     (entry.curvature * RISES * Monomers::default().rise_nm).to_degrees()
-}
-
-fn point_at(curve: &Curve<TwistPoint>, entry: &Entry) -> Option<TwistPoint> {
-    let turn = turn_deg(entry);
-    // Neighbouring angles are ten degrees apart.
-    let found = curve
-        .points
-        .iter()
-        .find(|p| (p.turn_deg - turn).abs() < 1e-6);
-    found.copied()
 }
 
 fn other_kinds() -> Vec<Kind> {

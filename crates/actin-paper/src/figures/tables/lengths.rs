@@ -2,7 +2,7 @@
 
 use super::ensemble::Kind;
 use crate::figures::draft::Draft;
-use crate::measure::{Curve, Specimen, TwistPoint, twist};
+use crate::measure::{Curve, TwistPoint, twist};
 use crate::statistics::sample;
 use actin_sim::Monomers;
 
@@ -27,9 +27,7 @@ pub(super) fn rows(draft: &mut Draft<'_>) -> Result<(), String> {
         .into_iter()
         .flat_map(|rises| (0..SEEDS).map(move |seed| (rises, seed)));
     let cases: Vec<(u32, u64)> = cases.collect();
-    let curves = draft.solve(&cases, |&(rises, seed)| Ok((rises, measure(rises, seed)?)));
-    let curves: Vec<(u32, Curve<TwistPoint>)> =
-        curves.into_iter().collect::<Result<_, String>>()?;
+    let curves = draft.solve(&cases, |&(rises, seed)| Ok((rises, measure(rises, seed)?)))?;
     let mut lines = Vec::new();
     for rises in RISES {
         for (i, (curvature, phi)) in angles().into_iter().enumerate() {
@@ -71,11 +69,8 @@ fn angles() -> Vec<(f64, f64)> {
 }
 
 fn measure(rises: u32, seed: u64) -> Result<Curve<TwistPoint>, String> {
-    let length = length_nm(rises);
-    let specimen = Specimen::ellipsoids(length, Kind::DEFAULT.monomers(seed));
-    let turns: Vec<f64> = angles()
-        .iter()
-        .map(|(kappa, _)| (kappa * length).to_degrees())
-        .collect();
+    let specimen = Kind::DEFAULT.specimen(f64::from(rises), seed);
+    let turn = |(kappa, _): (f64, f64)| (kappa * length_nm(rises)).to_degrees();
+    let turns: Vec<f64> = angles().into_iter().map(turn).collect();
     twist(&specimen, &turns).map_err(|error| format!("{rises} rises, seed {seed}: {error}"))
 }

@@ -120,10 +120,9 @@ fn measure(draft: &Draft<'_>, kind: Kind) -> Result<Readings, String> {
         let found =
             azimuth.map_or_else(|| stretch(kind, seed), |azimuth| bend(kind, seed, azimuth));
         found.map_err(|e| e.to_string())
-    });
+    })?;
     let mut readings = Readings::default();
     for one in found {
-        let one: Readings = one?;
         readings.all.extend(one.all);
         readings.unreached += one.unreached;
         readings.mismatch = readings.mismatch.max(one.mismatch);
@@ -133,8 +132,7 @@ fn measure(draft: &Draft<'_>, kind: Kind) -> Result<Readings, String> {
 }
 
 fn stretch(kind: Kind, seed: u64) -> Result<Readings, MeasureError> {
-    let monomers = kind.monomers(seed);
-    let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
+    let specimen = kind.specimen(RISES, seed);
     let mut readings = Readings::default();
     let curve = stretch_by_force(&specimen, &FORCES_PN)?;
     let of = (Protocol::StretchByForce, seed, 0.0);
@@ -146,8 +144,7 @@ fn stretch(kind: Kind, seed: u64) -> Result<Readings, MeasureError> {
 }
 
 fn bend(kind: Kind, seed: u64, azimuth: f64) -> Result<Readings, MeasureError> {
-    let monomers = kind.monomers(seed);
-    let specimen = Specimen::ellipsoids(BENT_RISES * monomers.rise_nm, monomers);
+    let specimen = kind.specimen(BENT_RISES, seed);
     let cantilever = Specimen::ellipsoids(CANTILEVER_NM, kind.monomers(seed));
     let of = |protocol| (protocol, seed, azimuth);
     let mut readings = Readings::default();
@@ -329,13 +326,10 @@ fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<
     let anisotropy = readings.anisotropy();
     draft.row(format!("{path}b1/anisotropy"), "", anisotropy, note);
     let per_um = 1e-3 / monomer::THERMAL_ENERGY;
+    let unscaled = per_um / monomer::RIGIDITY_SCALE;
     for (name, at, scale) in [
         ("persistence_length_um", BENT, per_um),
-        (
-            "persistence_length_unscaled_um",
-            BENT,
-            per_um / monomer::RIGIDITY_SCALE,
-        ),
+        ("persistence_length_unscaled_um", BENT, unscaled),
         ("persistence_length_um/at-rest", AT_REST, per_um),
     ] {
         let b1 = readings.sample(Protocol::Couples, at);
@@ -379,16 +373,13 @@ fn derived(draft: &mut Draft<'_>) {
     let (young, stretching) = (known("b1") / inertia, known("s3"));
     let b3_mean = 0.5 * (known("b3_min") + known("b3_max"));
     let shear_modulus = YOUNG / (2.0 * (1.0 + POISSON));
+    let shearing = STIFFER * 4.0 / 3.0 * shear_modulus * area;
     for (name, unit, value) in [
         ("young_modulus", "pN/nm^2", young),
         ("s3_over_ea", "", stretching / (young * area)),
         ("b3_mean", "pN nm^2", b3_mean),
         ("printed/ea", "pN", YOUNG * area),
-        (
-            "printed/s1",
-            "pN",
-            STIFFER * 4.0 / 3.0 * shear_modulus * area,
-        ),
+        ("printed/s1", "pN", shearing),
         ("rigidity_scale", "", monomer::RIGIDITY_SCALE),
         ("s_perp", "pN/nm", monomer::LATERAL_RIGIDITY),
         ("s_par", "pN/nm", monomer::LONGITUDINAL_RIGIDITY),

@@ -2,7 +2,7 @@
 
 use super::ensemble::Kind;
 use crate::figures::draft::Draft;
-use crate::measure::{RotationCorrelations, far_lengths, turns_in_bath};
+use crate::measure::{far_lengths, turns_in_bath};
 use crate::run::monomers as section;
 use actin_integrate::POSITION_VERLET;
 use actin_sim::{Filament, Monomers, ellipsoid_constants as monomer};
@@ -49,8 +49,7 @@ fn persistence_length_um(draft: &Draft<'_>, monomers: &Monomers) -> Result<(f64,
             ..Filament::new(vec![section(0.0, LENGTH_NM)])
         };
         turns_in_bath(filament, (&POSITION_VERLET, SHARE), replica)
-    });
-    let all: Vec<RotationCorrelations> = all.into_iter().collect::<Result<_, _>>()?;
+    })?;
     let [(length, error), _] = far_lengths(&all, monomers.rise_nm);
     Ok((1e-3 * length, 1e-3 * error))
 }

@@ -1,13 +1,12 @@
 //! Tables 3 and 5: entries of the paper compared with single filaments and ensembles.
 
-use super::ensemble::{Ensemble, Kind, StabilityCounts, core, ensemble, turn_deg, value};
+use super::ensemble::{Ensemble, Kind, Sampled, StabilityCounts, core, ensemble, turn_deg, value};
 use super::lengths;
 use crate::figures::charts::{dots, line};
 use crate::figures::draft::{Column, Draft, number};
 use crate::figures::expected::{DIFFERENCE, Holds};
 use crate::figures::texts::{ChartText, Values};
 use crate::fit::FitData;
-use crate::measure::TwistPoint;
 use crate::palette;
 use crate::published::{CURVATURE_ROUNDING, Entry, Table, entries};
 use crate::statistics::{SampleStatistics, rms, sample};
@@ -129,10 +128,12 @@ impl TwistTable {
 
     fn settings(&self, draft: &mut Draft<'_>) -> Result<(), String> {
         let doubts = self.ensemble.doubts(Kind::DEFAULT, &self.entries);
-        let unreached = self.ensemble.unreached();
-        let unreached = match unreached.first() {
-            None => "Every angle was reached.".to_owned(),
-            Some(first) => format!("{} angles were not reached: {first}.", unreached.len()),
+        let unreached = match &self.ensemble.unreached[..] {
+            [] => "Every angle was reached.".to_owned(),
+            [first, ..] => {
+                let count = self.ensemble.unreached.len();
+                format!("{count} angles were not reached: {first}.")
+            }
         };
         let values: Values<'_> = &[
             ("seeds", &self.ensemble.seeds),
@@ -175,8 +176,8 @@ impl TwistTable {
     }
 
     fn filament_row(&self, draft: &mut Draft<'_>, kind: Kind, folder: &str, entry: &Entry) {
-        let points = self.ensemble.points(kind, entry);
-        let Some((_, point)) = points.iter().find(|(seed, _)| *seed == 0) else {
+        let mut points = self.ensemble.points(kind, entry);
+        let Some((.., point)) = points.find(|point| point.1 == 0) else {
             return;
         };
         let (words, before) = match kind {
@@ -225,10 +226,10 @@ impl TwistTable {
                 .iter()
                 .map(|e| self.difference(self.mean(kind, e), e))
         };
-        let single = sample(self.ensemble.of_kind(kind).map(|sampling| {
-            let values = compared
-                .iter()
-                .filter_map(|e| Some((e, sampling.value(e, self.table)?)));
+        let seeds = kind.seeds(self.ensemble.seeds);
+        let single = sample(seeds.map(|seed| {
+            let value = |e: &Entry| self.ensemble.value(kind, seed, e, self.table);
+            let values = compared.iter().filter_map(|e| Some((e, value(e)?)));
             rms(values.map(|(e, value)| self.difference(value, e)))
         }));
         let (what, scale) = match self.table {
@@ -288,8 +289,7 @@ impl TwistTable {
                     sample: self.ensemble.sample(kind, &entry, self.table),
                     doubts: self.ensemble.doubts(kind, &[entry]),
                 });
-                let points = self.ensemble.points(kind, &entry).into_iter();
-                filaments.extend(points.map(|(seed, point)| (kind, seed, point)));
+                filaments.extend(self.ensemble.points(kind, &entry).copied());
             }
         }
         draft.table(&format!("{}.csv", draft.id), &kinds, &KINDS)?;
@@ -359,11 +359,9 @@ impl TwistTable {
             blue,
             self.curve(Kind::DEFAULT),
         ));
-        let first = self.ensemble.of_kind(Kind::DEFAULT).find(|s| s.seed == 0);
-        let seed_0 = self
-            .entries
-            .iter()
-            .filter_map(|entry| Some((entry.curvature, first?.value(entry, self.table)?)));
+        let value = |e: &Entry| self.ensemble.value(Kind::DEFAULT, 0, e, self.table);
+        let entries = self.entries.iter();
+        let seed_0 = entries.filter_map(|e| Some((e.curvature, value(e)?)));
         series.push(line(
             "sampled, seed 0",
             palette::resolution(0.25),
@@ -446,7 +444,7 @@ const KINDS: [Column<OfKind>; 14] = [
     ("off_the_branch", |k| k.doubts.off_the_branch.to_string()),
 ];
 
-const FILAMENTS: [Column<(Kind, u64, TwistPoint)>; 13] = [
+const FILAMENTS: [Column<Sampled>; 13] = [
     ("kind", |(kind, ..)| kind.name()),
     ("seed", |(_, seed, _)| seed.to_string()),
     ("turn_deg", |(.., p)| number(p.turn_deg)),

@@ -1,23 +1,17 @@
-//! Time step of whole filaments; assembly and factorisation of one Newton iteration.
+//! Assembly and factorisation of one Newton iteration. `cargo xtask bench` measures time steps.
 //!
-//! `cargo bench -p actin-sim --bench steps`
+//! `cargo bench -p actin-sim --bench newton`
 
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
-use actin_integrate::{Composition, Drag, PEFRL, POSITION_VERLET, advance};
 use actin_mechanics::{Xorshift, perturb};
 use actin_sim::{Assembly, Scene};
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
 /// Clamped filaments of 160 nm: a rod of 64 segments, and 60 monomers.
 const ROD: &str = "Rod(from_nm: 0.0, to_nm: 160.0, segments: 64)";
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 160.0)";
 const LONG: &str = "Ellipsoids(from_nm: 0.0, to_nm: 1600.0)";
-
-/// Time step (ns) that is stable for all filaments.
-const STEP_NS: f64 = 1e-4;
-/// Steps per measurement, so that half drifts merge as in a run.
-const STEPS: u64 = 100;
 
 fn assembly(section: &str) -> Assembly {
     let text = format!(
@@ -30,21 +24,6 @@ fn assembly(section: &str) -> Assembly {
     );
     let scene = Scene::from_ron(&text).expect("the scene is well formed");
     Assembly::build(&scene).expect("the scene has room for its bodies")
-}
-
-fn steps(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("steps");
-    group.throughput(Throughput::Elements(STEPS));
-    let mut bench = |name: &str, section: &str, scheme: &'static Composition| {
-        let mut system = assembly(section).system;
-        group.bench_function(BenchmarkId::new(name, scheme.name()), |bencher| {
-            bencher.iter(|| advance(&mut system, scheme, STEP_NS, STEPS, &Drag::NONE));
-        });
-    };
-    bench("rod_64", ROD, &POSITION_VERLET);
-    bench("rod_64", ROD, &PEFRL);
-    bench("monomers_60", MONOMERS, &POSITION_VERLET);
-    group.finish();
 }
 
 fn newton_iteration(criterion: &mut Criterion) {
@@ -83,5 +62,5 @@ fn newton_iteration(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, steps, newton_iteration);
+criterion_group!(benches, newton_iteration);
 criterion_main!(benches);
