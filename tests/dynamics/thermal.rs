@@ -2,7 +2,7 @@
 
 use super::filaments::{FILAMENTS, KBT, assemble};
 use super::modes::Modes;
-use crate::common::build;
+use crate::common::{build, ran};
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
 
 use actin_mechanics::{State, System};
@@ -185,4 +185,37 @@ fn every_mode_of_a_clamped_rod_has_its_share() {
             assert_is_one(&format!("{what}, {modes}"), &blocks);
         }
     }
+}
+
+fn end_of_scene(seed: u64, record_every_ns: f64) -> State {
+    let text = format!(
+        "Scene(
+            filament: Filament(
+                sections: [
+                    Ellipsoids(from_nm: 0.0, to_nm: 30.0),
+                    Rod(from_nm: 30.0, to_nm: 60.0),
+                ],
+                monomers: (anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+                rod: RodModel(law: Constant),
+            ),
+            clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
+            task: Dynamics(
+                duration_ns: 0.2,
+                time_step_ns: 5e-4,
+                drag: (translational_per_ns: 1.0, rotational_per_ns: 2.0),
+                thermal: (temperature_k: 300.0, seed: {seed}),
+                record_every_ns: {record_every_ns:?},
+            ),
+        )"
+    );
+    let (_, mut trajectory, _) = ran(&text);
+    trajectory.records.pop().unwrap().state
+}
+
+#[test]
+fn a_scene_with_a_seed_is_one_run() {
+    let reference = end_of_scene(1, 0.2);
+    assert_eq!(end_of_scene(1, 0.005), reference);
+    assert_eq!(end_of_scene(1, 0.0125), reference);
+    assert!(end_of_scene(2, 0.2).points.position != reference.points.position);
 }

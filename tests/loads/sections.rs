@@ -357,3 +357,11 @@ fn bonds_across_boundaries_are_listed() {
         assert!(bonds.energy(&assembly.rest) < 1e-20 * own, "{i}");
     }
 }
+
+#[test]
+fn masses_are_multiplied() {
+    let assembly = build(&text(&middle("altered: (mass_factor: 1.5)"), ""));
+    let mass = |i: usize| assembly.system.state().points.mass(i);
+    let ratio = mass(assembly.sections[1].points.start) / mass(assembly.sections[0].points.start);
+    assert!((ratio - 1.5).abs() < 1e-14, "{ratio}");
+}

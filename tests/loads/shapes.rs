@@ -129,3 +129,21 @@ fn ends_slide_along_their_tangents() {
     let (_, frame) = on_arc(&assembly, LENGTH);
     assert!((slider.directions[0] - frame * Vector3::z()).norm() < 1e-12);
 }
+
+#[test]
+fn imperfections_add_to_the_shape() {
+    let shape = format!("{ARC}, imperfection: (amplitude_nm: 0.2, seed: 3)");
+    let rest = "clamps: [Clamp(end: Start), Clamp(end: End)], task: Equilibrium(),";
+    for sections in [ROD, MONOMERS] {
+        let assembly = build(&text(sections, &shape, rest));
+        let moved: Vec<f64> = (0..assembly.points.len())
+            .map(|i| {
+                let at = |state| assembly.centre_line_nm(state, i);
+                (at(assembly.system.state()) - at(&assembly.rest)).norm()
+            })
+            .collect();
+        let largest = moved.iter().copied().fold(0.0, f64::max);
+        assert!((largest / 0.2 - 1.0).abs() < 0.02, "{largest}");
+        assert!(moved[0] < 1e-12 && moved[moved.len() - 1] < 1e-12);
+    }
+}

@@ -1,7 +1,7 @@
 //! Initial state from another run.
 
 use crate::scene::{Scene, SceneProblem, Setting, Start, Task};
-use crate::{Assembly, BodyKind};
+use crate::{Assembly, BodyKind, FilamentSpan};
 use actin_mechanics::State;
 
 /// Tolerance for equal arc lengths (nm): far above round-off, far below changes of a scene.
@@ -67,10 +67,27 @@ impl Assembly {
         let is_same = |(a, b): ((BodyKind, f64), (BodyKind, f64))| {
             a.0 == b.0 && (a.1 - b.1).abs() < SAME_PLACE_NM
         };
-        if self.places().zip(run.places()).all(is_same) {
-            return Ok(());
+        if !self.places().zip(run.places()).all(is_same) {
+            let rule = "is a run with other sections: write the same sections";
+            return Err(self.refused_start(rule));
         }
-        Err(self.refused_start("is a run with other sections: write the same sections"))
+        let edges = |scene: &Scene| scene.periodic.as_ref().map(|periodic| periodic.size_nm);
+        if edges(&self.scene) != edges(&run.scene) {
+            let rule = "is a run with another periodic box: write the same size_nm";
+            return Err(self.refused_start(rule));
+        }
+        let moved = |(own, other): (&FilamentSpan, &FilamentSpan)| {
+            (own.origin_nm - other.origin_nm).norm() > SAME_PLACE_NM
+                || own.rotation.angle_to(&other.rotation) > SAME_PLACE_NM
+        };
+        if let Some(k) = self.filaments.iter().zip(&run.filaments).position(moved) {
+            let rule = format!(
+                "is a run in which filament {k} has another position or direction: write the same at_nm and \
+                 direction"
+            );
+            return Err(self.refused_start(rule));
+        }
+        Ok(())
     }
 
     /// Kind and arc length (nm) of each point, then of each frame.
@@ -83,9 +100,14 @@ impl Assembly {
         let settings = run.scene.path.iter().flat_map(|stage| &stage.set);
         let moves =
             |setting: &Setting| matches!(setting, Setting::Anchor { .. } | Setting::Shear { .. });
+        let is_sheared = run
+            .scene
+            .periodic
+            .as_ref()
+            .is_some_and(|periodic| periodic.strain != 0.0);
         let rule = if run.has_events() {
             "is a run whose linkers bind or unbind: they cannot be taken over"
-        } else if settings.into_iter().any(moves) {
+        } else if is_sheared || settings.into_iter().any(moves) {
             "is a run whose path moves anchors or shears the periodic box: these cannot be taken over"
         } else {
             return Ok(());

@@ -12,7 +12,7 @@ use actin_rundir::{
 };
 use actin_sim::{
     FailedRun, Failure as Broken, Outcome, Plan, Record, RecordSummary, Records, RecordsError,
-    RunError, RunPosition, SavedRun, Sink, Status,
+    RunError, RunPosition, SavedRun, Sink, Start, Status,
 };
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -41,7 +41,7 @@ fn run_plan(arguments: &RunArguments, opened: &BuiltScene, plan: &Plan<'_>) -> R
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
     let directory = RunDirectory::existing(&out);
     let mut checkpoints = checkpoints(arguments, plan, &directory)?;
-    refuse_own_scene(arguments, &out)?;
+    refuse_own_sources(arguments, plan.scene().start.as_ref(), &out)?;
     if arguments.overwrite && FollowedDirectory::exists_at(&out) {
         // An earlier run with time-dependent resolution.
         FollowedDirectory::new(&out).remove_from(0)?;
@@ -82,14 +82,26 @@ pub(crate) fn by_default(source: &SceneArguments) -> PathBuf {
     Path::new("runs").join(name)
 }
 
-pub(crate) fn refuse_own_scene(arguments: &RunArguments, out: &Path) -> Result<(), Failure> {
-    if arguments.overwrite && RunDirectory::existing(out).holds(&arguments.source.scene) {
-        let (scene, out) = (arguments.source.scene.display(), out.display());
-        return Err(Failure::Input(format!(
-            "{scene} lies in {out}, which --overwrite would replace: move the scene to another folder"
-        )));
-    }
-    Ok(())
+/// Refuses to overwrite a directory that contains the scene, or the run from which it starts.
+pub(crate) fn refuse_own_sources(
+    arguments: &RunArguments,
+    start: Option<&Start>,
+    out: &Path,
+) -> Result<(), Failure> {
+    let start = start.map(|Start::Run { directory }| (Path::new(directory), "use another --out"));
+    let own = (
+        arguments.source.scene.as_path(),
+        "move the scene to another folder",
+    );
+    let directory = RunDirectory::existing(out);
+    let mut sources = std::iter::once(own).chain(start);
+    let held = sources.find(|(path, _)| arguments.overwrite && directory.holds(path));
+    held.map_or(Ok(()), |(path, advice)| {
+        let (path, out) = (path.display(), out.display());
+        Err(Failure::Input(format!(
+            "{path} lies in {out}, which --overwrite would replace: {advice}"
+        )))
+    })
 }
 
 pub(crate) fn checkpoints(

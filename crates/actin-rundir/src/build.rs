@@ -1,12 +1,12 @@
 //! Construction of scenes that start from another run.
 
 use crate::{FinishedRun, RunDirectory};
-use actin_sim::{Assembly, Scene, SceneProblem, Start};
+use actin_sim::{Assembly, Scene, SceneProblem, Start, Status};
 
 /// Builds a scene as [`actin_sim::build`], and reads its initial state from the run that `start` names.
 ///
 /// # Errors
-/// As [`actin_sim::build`]; if the run failed, cannot be read, or has other bodies.
+/// As [`actin_sim::build`]; if the run failed or was interrupted, cannot be read, or has other bodies.
 pub fn build(scene: &Scene) -> Result<Assembly, SceneProblem> {
     let mut assembly = actin_sim::build(scene)?;
     let Some(Start::Run { directory }) = &scene.start else {
@@ -14,11 +14,16 @@ pub fn build(scene: &Scene) -> Result<Assembly, SceneProblem> {
     };
     let run = FinishedRun::open(directory).and_then(|run| {
         let summary = RunDirectory::existing(directory).summary()?;
-        Ok((summary.failure, run.last_state()?, run))
+        Ok((summary, run.last_state()?, run))
     });
-    let (failure, state, run) = run.map_err(|error| assembly.refused_start(error.to_string()))?;
-    if !failure.is_empty() {
-        return Err(assembly.refused_start(format!("is a run that failed: {failure}")));
+    let (summary, state, run) = run.map_err(|error| assembly.refused_start(error.to_string()))?;
+    let rule = match summary.status {
+        Status::Converged | Status::Completed => None,
+        Status::Failed => Some(format!("is a run that failed: {}", summary.failure)),
+        Status::Interrupted => Some("is an interrupted run: continue it with --resume".to_owned()),
+    };
+    if let Some(rule) = rule {
+        return Err(assembly.refused_start(rule));
     }
     assembly.start_from(run.assembly(), &state)?;
     Ok(assembly)
@@ -174,9 +179,15 @@ mod tests {
             "{}",
             refusal(&other)
         );
+        let mut moved = after(&at, task);
+        moved.filament.at_nm = [30.0, 0.0, 0.0];
+        run(&scene(task), &folder.path().join("other"));
+        moved.start = after(&folder.path().join("other"), task).start;
+        assert!(refusal(&moved).contains("filament 0 has another position"));
         let summary = at.join("summary.json");
         let text = fs::read_to_string(&summary).unwrap();
         let failed = text.replacen('{', "{\"failure\": \"no equilibrium\",", 1);
+        let failed = failed.replacen("\"converged\"", "\"failed\"", 1);
         fs::write(&summary, failed).unwrap();
         assert!(refusal(&after(&at, task)).contains("is a run that failed: no equilibrium"));
         let unread = actin_sim::build(&after(&at, task)).unwrap();

@@ -76,6 +76,11 @@ pub enum Damage {
         /// Line of the given scene.
         given: String,
     },
+    /// The run that `start` of the scene names has changed.
+    #[error(
+        "start.directory has changed since this run began: restore that run, or use --overwrite"
+    )]
+    Start,
     /// A completed motion cannot be extended.
     #[error("the run cannot be extended: {0}")]
     Extension(String),

@@ -2,7 +2,7 @@
 
 use super::problem::Problems;
 use super::rules::{check_index, check_on_filament, show};
-use super::{ClampedEnds, End, Linker, Scene, SceneProblem, Section};
+use super::{ClampedEnds, End, Linker, PeriodicBox, Scene, SceneProblem, Section};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -302,8 +302,8 @@ fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
         return Ok(());
     };
     let rule = match scene.task.motion() {
-        Some(motion) if motion.thermal.is_none() => {
-            "means require thermal noise: omit this key, or write thermal".to_owned()
+        Some(motion) if motion.thermal.is_none() && !scene.oscillates() => {
+            "means require a temperature or an oscillating periodic box: omit this key".to_owned()
         }
         Some(motion) if burn_in >= motion.duration_ns => {
             format!("must be below the duration, {:?} ns", motion.duration_ns)
@@ -349,10 +349,15 @@ impl Scene {
     }
 
     /// Returns the initial time (ns) that means exclude: as written, or a fifth of the duration; `None` without
-    /// thermal noise.
+    /// thermal noise or an oscillating periodic box.
     pub fn burn_in(&self) -> Option<f64> {
         let motion = self.task.motion()?;
         let default = BURN_IN * motion.duration_ns;
-        motion.thermal.map(|_| self.burn_in_ns.unwrap_or(default))
+        let has_means = motion.thermal.is_some() || self.oscillates();
+        has_means.then(|| self.burn_in_ns.unwrap_or(default))
+    }
+
+    fn oscillates(&self) -> bool {
+        self.periodic.as_ref().is_some_and(PeriodicBox::oscillates)
     }
 }

@@ -24,6 +24,17 @@ pub struct PeriodicBox {
     pub factor: Factor,
 }
 
+impl PeriodicBox {
+    /// Returns true if the strain oscillates with an amplitude other than 0.
+    pub fn oscillates(&self) -> bool {
+        let amplitude = match self.factor {
+            Factor::Sine { amplitude, .. } => amplitude,
+            _ => 0.0,
+        };
+        self.strain * amplitude != 0.0
+    }
+}
+
 /// Returns the indices of the origin of a cubic lattice and its 26 neighbours.
 pub(super) fn neighbours() -> [[i32; 3]; 27] {
     let mut step = -1;

@@ -155,6 +155,9 @@ impl Repulsion {
             let problem = SceneProblem::new("repulsion.filaments", false, rule);
             problems.note(Err(problem));
         }
+        if !self.radius_nm.is_finite() {
+            return;
+        }
         let spheres = self.spheres.iter().map(|one| (one.radius_nm, one.side));
         let cylinders = self.cylinders.iter().map(|one| (one.radius_nm, one.side));
         let round = (spheres.enumerate().map(|(i, one)| ("sphere", i, one)))

@@ -78,9 +78,16 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 impl TryFrom<SceneFile> for Scene {
     type Error = SceneProblem;
 
-    /// Collects the filaments of all keys, then the linkers.
-    fn try_from(mut written: SceneFile) -> Result<Self, SceneProblem> {
-        written.check_generated()?;
+    fn try_from(written: SceneFile) -> Result<Self, SceneProblem> {
+        let first = written.problems_of_generated(1).into_iter().next();
+        first.map_or_else(|| written.generate(), Err)
+    }
+}
+
+impl SceneFile {
+    /// Collects the filaments of all keys, then the linkers. Their numbers must be valid.
+    pub(super) fn generate(self) -> Result<Scene, SceneProblem> {
+        let mut written = self;
         let mut filaments = written.take_filaments()?;
         let surroundings = (written.repulsion.as_ref(), written.periodic.as_ref());
         for (k, arrangement) in written.arrangements.iter().enumerate() {
@@ -99,7 +106,7 @@ impl TryFrom<SceneFile> for Scene {
         }
         let mut filaments = filaments.into_iter();
         let none = || SceneProblem::new("filaments", "[]", "a scene has at least one filament");
-        Ok(Self {
+        Ok(Scene {
             title: written.title,
             filament: filaments.next().ok_or_else(none)?,
             other_filaments: filaments.collect(),
@@ -117,14 +124,12 @@ impl TryFrom<SceneFile> for Scene {
             task: written.task,
         })
     }
-}
 
-impl SceneFile {
-    /// Checks the numbers that determine generated filaments and linkers, and the filaments and the space of
-    /// arrangements.
-    fn check_generated(&self) -> Result<(), SceneProblem> {
+    /// Returns violated rules that generated filaments and linkers depend on: all numbers, and the filaments and the
+    /// space of arrangements. None for a scene in which nothing is generated.
+    pub(super) fn problems_of_generated(&self, most: usize) -> Vec<SceneProblem> {
         let has_linkers = !(self.linker_sets.is_empty() && self.crosslinkers.is_empty());
-        let mut problems = Problems::new(1);
+        let mut problems = Problems::new(most);
         if has_linkers || !self.arrangements.is_empty() {
             numbers::check(&to_value(self, false), &mut problems);
         }
@@ -141,7 +146,7 @@ impl SceneFile {
             let key = format!("arrangements[{k}].filament");
             check_filament(&filament, &key, &mut problems);
         }
-        problems.into_result()
+        problems.found
     }
 
     /// Returns the filaments of the keys `filament` or `filaments`. Scenes with arrangements may omit both.

@@ -65,7 +65,7 @@ fn check_altered(key: &str, section: &Section, filament: &Filament) -> Result<()
     }
     let turn = filament.monomers.turn_deg;
     let own = altered.turn_deg.unwrap_or(turn);
-    if (own - turn).abs() <= LARGEST_TURN_DEG {
+    if !turn.is_finite() || (own - turn).abs() <= LARGEST_TURN_DEG {
         return Ok(());
     }
     let rule = format!(

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 pub enum Start {
     /// Last state of a finished run with the same sections, for example to continue an equilibrium as a motion.
     /// `Dynamics` after `Dynamics` keeps the velocities. Clamped ends stay where that run left them, and stages
-    /// move them from there.
+    /// move them from there. Filaments begin at the same places. Runs with linkers that bind, moved anchors or a sheared box
+    /// are refused.
     Run {
         /// Directory of the run. The path is relative to the scene file, or to the working directory for a scene
         /// from standard input.

@@ -204,7 +204,9 @@ impl SceneText {
     /// A text that is not a scene.
     pub fn read(&self) -> Result<(Scene, Option<SceneError>), SceneError> {
         let written = self.readings::<SceneFile>().into_result()?;
-        let scene = Scene::try_from(written).map_err(|problem| self.locate(&problem))?;
+        let scene = self
+            .generated(written)
+            .map_err(|mut all| all.swap_remove(0))?;
         let problem = self.problems(&scene).into_iter().next();
         Ok((scene, problem))
     }
@@ -215,9 +217,9 @@ impl SceneText {
     /// The first is the error of [`scene`](Self::scene).
     pub fn mistakes(&self) -> Vec<SceneError> {
         let ParseReport { value, mistakes } = self.readings::<SceneFile>();
-        let problems = match value.map(Scene::try_from) {
+        let problems = match value.map(|written| self.generated(written)) {
             Some(Ok(scene)) => self.problems(&scene),
-            Some(Err(problem)) => vec![self.locate(&problem)],
+            Some(Err(problems)) => problems,
             None => Vec::new(),
         };
         let mut all: Vec<_> = mistakes.into_iter().chain(problems).collect();
@@ -226,11 +228,29 @@ impl SceneText {
         all
     }
 
+    /// Returns the scene, or violated rules in the order of the text.
+    fn generated(&self, written: SceneFile) -> Result<Scene, Vec<SceneError>> {
+        let problems = written.problems_of_generated(MOST);
+        if !problems.is_empty() {
+            return Err(self.in_order(&problems));
+        }
+        written
+            .generate()
+            .map_err(|problem| vec![self.locate(&problem)])
+    }
+
     /// Returns violated rules in the order of the text.
     fn problems(&self, scene: &Scene) -> Vec<SceneError> {
-        let found = validate::problems(scene, self.most()).found;
-        let mut located: Vec<_> = found.iter().map(|problem| self.locate(problem)).collect();
+        self.in_order(&validate::problems(scene, MOST).found)
+    }
+
+    fn in_order(&self, problems: &[SceneProblem]) -> Vec<SceneError> {
+        let mut located: Vec<_> = problems
+            .iter()
+            .map(|problem| self.locate(problem))
+            .collect();
         located.sort_by_key(|error| (error.line, error.column));
+        located.truncate(self.most());
         located
     }
 

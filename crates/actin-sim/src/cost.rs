@@ -30,8 +30,11 @@ pub struct Timing {
     pub steps: u64,
     /// Time of one step (s).
     pub step_s: f64,
-    /// Time of assembly and run (s); `None` for an equilibrium beyond the duration of the measurement.
+    /// Time of assembly and run (s); `None` for an equilibrium beyond the duration of the measurement, and for a run
+    /// that failed.
     pub total_s: Option<f64>,
+    /// True if the measured steps failed.
+    pub has_failed: bool,
 }
 
 impl Plan<'_> {
@@ -67,6 +70,7 @@ impl Plan<'_> {
         let steps = steps.max(1);
         let step_s = watch.measured_s() / steps as f64;
         let left = match outcome.status {
+            Status::Failed => None,
             Status::Interrupted => self.estimate().map(|all| all.steps.saturating_sub(steps)),
             _ => Some(0),
         };
@@ -74,6 +78,7 @@ impl Plan<'_> {
             steps,
             step_s,
             total_s: left.map(|left| self.set_up_s() + elapsed_s + left as f64 * step_s),
+            has_failed: outcome.status == Status::Failed,
         })
     }
 }
@@ -130,6 +135,9 @@ impl fmt::Display for Timing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let each = time(self.step_s);
         match self.total_s {
+            None if self.has_failed => {
+                f.write_str("unknown: the FIRST STEPS FAIL, as `run` reports")
+            }
             Some(total) => write!(
                 f,
                 "{} on one core, measured here over {} steps of {each}",

@@ -113,6 +113,7 @@ impl Assembly {
             ),
             (codes::SHORT_ROD, Vec::from_iter(self.short_rods())),
             (codes::LONG_SEGMENTS, self.long_segments()),
+            (codes::LONG_SEGMENTS, Vec::from_iter(self.coarse_in_water())),
             (codes::PARTLY_RESOLVED, self.partly_resolved()),
             (codes::OVERLAP, self.notes_on_repulsion()),
             (

@@ -1,6 +1,6 @@
 //! `actin run` with time-dependent resolution: a chain of run directories, one for each stretch.
 
-use super::{RunSink, by_default, checkpoints, refuse_own_scene};
+use super::{RunSink, by_default, checkpoints, refuse_own_sources};
 use crate::RunArguments;
 use crate::failure::{BuiltScene, Failure};
 use crate::report::print;
@@ -82,7 +82,7 @@ fn claim(arguments: &RunArguments, out: &Path, is_new: bool) -> Result<RunLock, 
     if !is_new {
         return Ok(RunLock::acquire(out)?);
     }
-    refuse_own_scene(arguments, out)?;
+    refuse_own_sources(arguments, None, out)?;
     let is_left = arguments.resume && RunDirectory::existing(out).is_unfinished();
     let (_, lock) = RunDirectory::create_locked(out, arguments.overwrite || is_left)?;
     Ok(lock)

@@ -6,6 +6,7 @@ use crate::common::{
     stderr,
 };
 use std::fs;
+use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::Command;
 
@@ -238,4 +239,21 @@ fn a_run_killed_while_it_writes_results_loses_nothing() {
         place.write("a/.actin-run.lock", "");
         assert_same_files(&place.path("whole"), &place.path("a"));
     }
+}
+
+/// A run does not replace its scene or the run from which it starts.
+#[test]
+fn sources_are_not_overwritten() {
+    let place = Workplace::with(EQUILIBRIUM);
+    place.run("a");
+    symlink("a/scene.ron", place.path("link.ron")).unwrap();
+    for scene in ["a/scene.ron", "./a/../a/scene.ron", "link.ron"] {
+        let arguments = format!("{scene} --out a --overwrite");
+        let message = refusal(&place, &arguments, &["a", "a/vtk"]);
+        assert_has(&message, &["lies in a, which --overwrite would replace"]);
+    }
+    let start = "start: Run(directory: \"a\"), task:";
+    fs::write(place.path("next.ron"), EQUILIBRIUM.replace("task:", start)).unwrap();
+    let message = refusal(&place, "next.ron --out a --overwrite", &["a", "a/vtk"]);
+    assert_has(&message, &["lies in a", "use another --out"]);
 }

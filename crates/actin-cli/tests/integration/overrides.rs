@@ -60,3 +60,34 @@ fn a_scene_may_come_from_standard_input() {
     assert_eq!(code(&good), 0, "{}", stderr(&good));
     assert!(place.path("runs/stdin/summary.json").is_file());
 }
+
+#[test]
+fn invalid_overrides_are_refused_by_name() {
+    let place = Workplace::with(SCENE);
+    for (arguments, message) in [
+        (
+            ["--set", "filament.rod.law=Fittet"],
+            "error: --set filament.rod.law=Fittet: unknown RodLaw Fittet",
+        ),
+        (
+            ["--set", "filament.sections[1].to_nm=5.0"],
+            "error: --set filament.sections[1].to_nm=5.0: filament.sections[1].to_nm = 5.0: must be \
+             greater than from_nm",
+        ),
+        (["--set", "filament.monomers.anchors=Cubature"], ""),
+        (
+            ["--set", "task"],
+            "error: invalid value 'task' for '--set <KEY=VALUE>'",
+        ),
+        (["--seed", "-1"], "error: "),
+    ] {
+        let code = if message.is_empty() { 0 } else { 2 };
+        let found = place.fail(code, &[&["check", "scene.ron"][..], &arguments].concat());
+        assert!(found.starts_with(message), "{found}");
+    }
+    let drawn = ["--set", "filament.monomers.anchors=Cubature", "--seed", "3"];
+    let found = place.fail(2, &[&["run", "scene.ron"][..], &drawn].concat());
+    let message = "error: --seed 3: scene.ron has nothing random (sampled bonds, thermal noise, imperfections, linker events): remove --seed\n";
+    assert_eq!(found, message);
+    assert!(!place.path("runs").exists());
+}

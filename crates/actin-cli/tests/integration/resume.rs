@@ -242,3 +242,32 @@ fn what_writes_nothing_needs_no_lock() {
     let refused = place.fail(2, &["run", "scene.ron", "--out", "a"]);
     assert_has(&refused, &["is not empty"]);
 }
+
+/// A run continues only from the state that it began with, and an interrupted run is no start.
+#[test]
+fn a_changed_start_is_refused() {
+    let (kept, task) = MOTION.split_at(MOTION.find("    path:").unwrap());
+    let place = Workplace::with(&format!(
+        "{kept}    start: Run(directory: \"before\"),\n{task}"
+    ));
+    place.write("before.ron", format!("{kept}    task: Equilibrium(),\n)"));
+    place.succeed(&["run", "before.ron", "--out", "before"]);
+    let output = place.interrupted("a", "checkpoint.bin", &["-INT"]);
+    assert_eq!(code(&output), 130);
+    let pull = "loads[0].force_pn=(-1.0,0.0,0.0)";
+    let again = ["run", "before.ron", "--out", "before", "--overwrite"];
+    place.succeed(&[&again[..], &["--set", pull]].concat());
+    let refused = place.fail(2, &["run", "scene.ron", "--out", "a", "--resume"]);
+    assert_has(
+        &refused,
+        &["start.directory has changed since this run began"],
+    );
+    place.succeed(&again);
+    let next = "start.directory=\"a\"";
+    let refused = place.fail(2, &["check", "scene.ron", "--set", next]);
+    assert_has(
+        &refused,
+        &["is an interrupted run: continue it with --resume"],
+    );
+    place.resume("a");
+}

@@ -33,11 +33,11 @@ use terms::{BY_TWIST, InvariantJet, Invariants, Jet, TermSum, Variables, values}
 type SixVector = Vector6<f64>;
 
 /// Search for the stretch without tension: number of steps, largest step and tolerance (stretch), and
-/// lower bound of the stiffness (pN).
+/// lower bound of the stiffness, relative to that of the straight rod.
 const FREE_STEPS: usize = 30;
 const LARGEST_FREE_STEP: f64 = 2e-3;
 const FREE_TOLERANCE: f64 = 1e-7;
-const SOFTEST_STRETCH: f64 = 1e3;
+const SOFTEST_STRETCH: f64 = 0.03;
 
 /// Invariants of the strains, with the natural length of the straight rod.
 ///
@@ -325,15 +325,20 @@ impl Homogenised {
 
     /// Stretch at a strain, relative to the length that the [range](StrainRange::stretch) refers to.
     pub fn stretch_in_range(&self, strain: &SixVector) -> f64 {
+        let natural = self.natural_stretch(strain[2]);
         if !self.range.is_tension_free {
-            return strain[5] - self.natural_stretch(strain[2]);
+            return strain[5] - natural;
         }
+        let straight = SixVector::new(0.0, 0.0, strain[2], 0.0, 0.0, natural);
+        let softest = SOFTEST_STRETCH * self.tangent(&straight)[(5, 5)];
+        // Bending and shear shorten the straight rod.
         let mut free = *strain;
+        free[5] = natural;
         // Newton's method; steps are limited and the stiffness is bounded, since the tension may
         // have an inflection beyond the data.
         for _ in 0..FREE_STEPS {
             let jet = self.jet(&free);
-            let step = jet.loads[5] / f64::max(jet.tangent[(5, 5)], SOFTEST_STRETCH);
+            let step = jet.loads[5] / f64::max(jet.tangent[(5, 5)], softest);
             free[5] -= step.clamp(-LARGEST_FREE_STEP, LARGEST_FREE_STEP);
             if step.abs() < FREE_TOLERANCE {
                 break;

@@ -254,3 +254,28 @@ fn rejected_bonds_are_sampled_again() {
     assert!(long.len() < all.len() && long.len() > 400);
     assert_eq!(lengths(&draw(0.3, long.len())), long);
 }
+
+#[test]
+fn draws_are_keyed_by_kind_and_index() {
+    let mut parameters = with_bonds(1);
+    let first = |parameters: &EllipsoidParameters, kind, index| {
+        Interface::draw(parameters, kind, index).unwrap().bonds[0].lower
+    };
+    assert_ne!(
+        first(&parameters, Lateral, 0),
+        first(&parameters, Lateral, 1)
+    );
+    assert_ne!(
+        first(&parameters, Lateral, -1),
+        first(&parameters, Lateral, 1)
+    );
+    parameters.anchors = Anchors::Identical;
+    assert_eq!(
+        first(&parameters, Lateral, 0),
+        first(&parameters, Lateral, -7)
+    );
+    assert_ne!(
+        first(&parameters, Lateral, 0),
+        first(&parameters, Longitudinal, 0)
+    );
+}

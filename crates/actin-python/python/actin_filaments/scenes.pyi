@@ -222,7 +222,7 @@ class Brownian(Part):
     interval between records.
 
     Default for rods at a temperature: the bending relaxation time of a segment, 180 ns for 40 nm. Means are
-    accurate to 1 %, energies of stiff linkers to 5 %. Stages, loads, rates, shear or records can require shorter steps. Default for monomers
+    accurate to 1 % for segments below 1/50 of the persistence length, energies of stiff linkers to 6 %. Stages, loads, rates, shear or records can require shorter steps. Default for monomers
     with `QuasiHarmonic` interfaces: the step of segments of a fifth of the filament's length, at most 40
     nm. Default for other monomers at a temperature and with `repulsion`: 50 times the fastest relaxation
     time. Strains then have their thermal energy to 1 % on segments of 20 nm or more. Default at temperature
@@ -1369,7 +1369,8 @@ class Rooted(Part):
 class Run(Part):
     """Last state of a finished run with the same sections, for example to continue an equilibrium as a motion.
     `Dynamics` after `Dynamics` keeps the velocities. Clamped ends stay where that run left them, and stages
-    move them from there.
+    move them from there. Filaments begin at the same places. Runs with linkers that bind, moved anchors or a sheared box
+    are refused.
 
     - `directory`: Directory of the run. The path is relative to the scene file, or to the working directory for a scene
     from standard input.

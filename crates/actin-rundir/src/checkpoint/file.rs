@@ -5,6 +5,7 @@ use super::stored::{Form, Stored};
 use super::wire::{decode, decode_all, encode};
 use crate::Damage;
 use crate::difference::{Difference, first_difference};
+use actin_sim::mechanics::State;
 use actin_sim::{
     Plan, RecordSummary, RunPosition, RunStatistics, SavedRun, StoredRecord, Task, observed_columns,
 };
@@ -15,7 +16,7 @@ use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ACTINCKP";
 /// Version of the format; increase it with every change, including changes to the records.
-const FORMAT: u32 = 10;
+const FORMAT: u32 = 11;
 /// Length of the header: magic, version, length and checksum of the contents, checksum of the
 /// header.
 const HEADER: usize = 8 + 4 + 8 + 4 + 4;
@@ -25,6 +26,8 @@ const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Identity {
     pub(super) scene: String,
+    /// Checksum of the state that `start` of the scene gave.
+    pub(super) start: Option<u32>,
     pub(super) form: Form,
     /// True for motions in time, false for equilibria.
     pub(super) is_motion: bool,
@@ -35,6 +38,7 @@ pub(super) struct Identity {
 struct Origin<'a> {
     program: &'a str,
     scene: &'a str,
+    start: Option<u32>,
 }
 
 /// Contents of a checkpoint after the origin.
@@ -52,6 +56,11 @@ impl Identity {
         let assembly = plan.assembly();
         Self {
             scene: plan.scene().to_ron(),
+            start: assembly
+                .scene
+                .start
+                .as_ref()
+                .map(|_| checksum(assembly.system.state())),
             form: Form {
                 like: assembly.system.state().clone(),
                 terms: assembly.terms.len(),
@@ -66,6 +75,7 @@ impl Identity {
         let origin = Origin {
             program: PROGRAM,
             scene: &self.scene,
+            start: self.start,
         };
         let file = encode(&contents, encode(&origin, vec![0; HEADER]));
         with_header(file)
@@ -81,6 +91,9 @@ impl Identity {
             });
         }
         same_scene(origin.scene, &self.scene)?;
+        if origin.start != self.start {
+            return Err(Damage::Start);
+        }
         let contents: Contents<'static> = decode_all(rest)?;
         if matches!(*contents.position, RunPosition::Motion(_)) != self.is_motion {
             return Err(Damage::Contents("a run of another task".into()));
@@ -91,6 +104,19 @@ impl Identity {
         }
         Ok(contents)
     }
+}
+
+/// Checksum of positions and orientations.
+fn checksum(state: &State) -> u32 {
+    let positions = (0..state.points.len()).map(|i| state.points.position.get(i));
+    let orientations = (0..state.frames.len()).map(|i| state.frames.orientation.get(i));
+    let numbers = positions.flat_map(<[f64; 3]>::from);
+    let numbers = numbers.chain(orientations.flat_map(|q| <[f64; 4]>::from(q.coords)));
+    let mut hasher = crc32fast::Hasher::new();
+    for number in numbers {
+        hasher.update(&number.to_le_bytes());
+    }
+    hasher.finalize()
 }
 
 /// Refuses another scene and reports the first line that differs.

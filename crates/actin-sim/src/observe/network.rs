@@ -67,7 +67,7 @@ struct Oscillation {
 
 impl Oscillation {
     fn new(scene: &Scene) -> Option<Self> {
-        let periodic = scene.periodic.as_ref()?;
+        let periodic = scene.periodic.as_ref().filter(|one| one.oscillates())?;
         let is_sheared = |setting: &Setting| matches!(setting, Setting::Shear { .. });
         let mut settings = scene.path.iter().flat_map(|stage| &stage.set);
         match periodic.factor {
@@ -109,8 +109,9 @@ impl Oscillation {
             return Ok(());
         }
         let rule = format!(
-            "the period of the strain must be a multiple of the time between records, {every:?} ns, at least {FEWEST} \
-             times as long, and the time after burn_in_ns, {after:?} ns, a multiple of the period"
+            "is the period of the strain (periodic.factor). It must be a multiple of the time between records, {every:?} ns, at \
+             least {FEWEST} times as long, and the time after burn_in_ns, {after:?} ns, a multiple of it (by default burn_in_ns \
+             is a fifth of the duration)"
         );
         Err((MODULI[0], self.period_ns, rule))
     }
