@@ -207,3 +207,24 @@ fn consequences_hide_no_mistake() {
     );
     assert_eq!(Scene::from_ron(&text), Err(found[0].clone()));
 }
+
+/// Filaments are generated from valid numbers only; all invalid ones are listed, in the order of the text.
+#[test]
+fn numbers_of_scenes_with_arrangements_are_listed() {
+    let text = "Scene(
+        task: Brownian(duration_ms: -1.0, temperature_k: 298.0),
+        repulsion: Repulsion(radius_nm: NaN, spheres: [Sphere(at_nm: (0.0, 0.0, 0.0), radius_nm: 500.0, side: Inside)]),
+        burn_in_ns: NaN,
+        arrangements: [Random(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+            count: 2, box_nm: (100.0, 100.0, 100.0), seed: 1,
+        )],
+    )";
+    let lines: Vec<usize> = SceneText::new(text)
+        .mistakes()
+        .iter()
+        .map(|error| error.line)
+        .collect();
+    assert_eq!(lines, [2, 3, 4], "{:?}", SceneText::new(text).mistakes());
+    assert_eq!(Scene::from_ron(text).unwrap_err().line, 2);
+}
