@@ -4,8 +4,11 @@ use crate::scene::{Scene, SceneProblem, Setting, Start, Task};
 use crate::{Assembly, BodyKind, FilamentSpan};
 use actin_mechanics::State;
 
-/// Tolerance for equal arc lengths (nm): far above round-off, far below changes of a scene.
+/// Tolerance for equal arc lengths and positions (nm): far above round-off, far below changes of a scene.
 const SAME_PLACE_NM: f64 = 1e-6;
+
+/// Tolerance for equal directions (rad), likewise.
+const SAME_DIRECTION: f64 = 1e-6;
 
 impl Assembly {
     /// Starts from `state` of `run`, whose bodies must be the same. Positions and orientations are copied, and
@@ -78,7 +81,7 @@ impl Assembly {
         }
         let moved = |(own, other): (&FilamentSpan, &FilamentSpan)| {
             (own.origin_nm - other.origin_nm).norm() > SAME_PLACE_NM
-                || own.rotation.angle_to(&other.rotation) > SAME_PLACE_NM
+                || own.rotation.angle_to(&other.rotation) > SAME_DIRECTION
         };
         if let Some(k) = self.filaments.iter().zip(&run.filaments).position(moved) {
             let rule = format!(

@@ -33,7 +33,7 @@ use terms::{BY_TWIST, InvariantJet, Invariants, Jet, TermSum, Variables, values}
 type SixVector = Vector6<f64>;
 
 /// Search for the stretch without tension: number of steps, largest step and tolerance (stretch), and
-/// lower bound of the stiffness, relative to that of the straight rod.
+/// lower bound of the stiffness, relative to the stiffness of the straight rod.
 const FREE_STEPS: usize = 30;
 const LARGEST_FREE_STEP: f64 = 2e-3;
 const FREE_TOLERANCE: f64 = 1e-7;

@@ -19,20 +19,30 @@ fn interface(kind: InterfaceKind, anchors: Anchors, bonds: usize) -> Interface {
     model.interface(kind, 0).expect("the interface has bonds")
 }
 
-/// Energy per rigidity (nm^2), rotated about the middle of the line of centres.
-fn energy(interface: &Interface, shift: Vector3, turn: Vector3) -> f64 {
+/// Vectors of the bonds (nm, body frame of the lower monomer), rotated about the middle of the line of centres.
+fn vectors(
+    interface: &Interface,
+    shift: Vector3,
+    turn: Vector3,
+) -> impl Iterator<Item = (&Bond, Vector3)> {
     let Neighbour {
         rotation: rest,
         offset,
     } = interface.neighbour;
     let turn = rotation::exp(turn);
-    let of_bond = |bond: &Bond| {
+    interface.bonds.iter().map(move |bond| {
         let arm = rest * bond.upper + 0.5 * offset;
-        let upper = 0.5 * offset + turn * arm + shift;
-        let stretch = (upper - bond.lower).norm() - bond.rest_length;
+        (bond, 0.5 * offset + turn * arm + shift - bond.lower)
+    })
+}
+
+/// Energy per rigidity (nm^2).
+fn energy(interface: &Interface, shift: Vector3, turn: Vector3) -> f64 {
+    let of_bond = |(bond, vector): (&Bond, Vector3)| {
+        let stretch = vector.norm() - bond.rest_length;
         0.5 * bond.weight * stretch * stretch
     };
-    interface.bonds.iter().map(of_bond).sum()
+    vectors(interface, shift, turn).map(of_bond).sum()
 }
 
 /// The energy of 200 000 sampled bonds is accurate to about 0.2 %.
@@ -64,27 +74,25 @@ fn twelve_quadrature_bonds_have_the_energy_of_many_sampled_bonds() {
 }
 
 /// Energies in closed form from averages over the bonds: `(p + s^2 / 2L)^2 / 2`, 31 averages, and
-/// with all terms of degree four, 46 averages. The bonds are those of [`energy`], sheared by `s` and
-/// extended by `p`.
+/// with all terms of degree four, 46 averages. A bond is sheared by `s` and extended by `p`.
 fn energies_from_averages(interface: &Interface, shift: Vector3, turn: Vector3) -> [f64; 2] {
-    let Neighbour {
-        rotation: rest,
-        offset,
-    } = interface.neighbour;
-    let turn = rotation::exp(turn);
-    let of_bond = |bond: &Bond| {
-        let arm = rest * bond.upper + 0.5 * offset;
-        let axis = (rest * bond.upper + offset - bond.lower).normalize();
-        let end = 0.5 * offset + turn * arm + shift - bond.lower;
-        let (length, p) = (bond.rest_length, end.dot(&axis) - bond.rest_length);
-        let shear = (end - axis * end.dot(&axis)).norm_squared() / length;
+    let rest = vectors(interface, Vector3::zeros(), Vector3::zeros());
+    let of_bond = |((_, rest), (bond, vector)): ((&Bond, Vector3), (&Bond, Vector3))| {
+        let (length, axis) = (bond.rest_length, rest.normalize());
+        let along = vector.dot(&axis);
+        let (p, shear) = (
+            along - length,
+            (vector - axis * along).norm_squared() / length,
+        );
         let stretch = p + 0.5 * shear;
         let higher = -0.5 * p * shear / length - 0.125 * shear * shear / length;
         let energy = 0.5 * bond.weight * stretch * stretch;
         [energy, energy + bond.weight * p * higher]
     };
     let add = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a + c, b + d];
-    interface.bonds.iter().map(of_bond).fold([0.0; 2], add)
+    rest.zip(vectors(interface, shift, turn))
+        .map(of_bond)
+        .fold([0.0; 2], add)
 }
 
 /// An interaction of one term per interface, without bonds, is less accurate where heat moves the

@@ -183,7 +183,7 @@ pub(super) fn clamped_end() -> Assembly {
     build(CLAMPED_END)
 }
 
-/// Three records of random states near rest. All numbers differ, except those of fixed bodies.
+/// Three records of random states near rest. All numbers differ, except the numbers of fixed bodies.
 pub(super) fn trajectory(assembly: &Assembly) -> Trajectory {
     let mut noise = Xorshift::new(7);
     let records = [0.0, 0.1, 1.0 / 3.0].map(|time_ns| {
