@@ -171,6 +171,12 @@ impl Assembly {
         Some(&self.rods[found.ok()?])
     }
 
+    /// Ratio of the longest segment of a rod to its persistence length at the thermal energy `kt` (pN nm). `None` for
+    /// monomers.
+    pub fn segment_over_persistence_length(&self, section: usize, kt: f64) -> Option<f64> {
+        Some(self.rod_of(section)?.over_persistence_length(kt))
+    }
+
     /// Returns the filament of a point.
     pub fn filament_of_point(&self, point: usize) -> usize {
         self.filaments.partition_point(|f| f.points.end <= point)

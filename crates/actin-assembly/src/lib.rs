@@ -69,5 +69,6 @@ pub use ramp::Ramp;
 pub use range::{Fluctuations, LawExtrapolation, MeasuredError, RangeWatch};
 pub use reaction::{Clamped, Reaction};
 pub use repulsion::RepulsionModel;
+pub use rod::COARSE_IN_HEAT;
 pub use section_choice::SectionChoice;
 pub use unstable_twist::{TwistRecords, UnstableTwist};

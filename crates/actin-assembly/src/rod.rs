@@ -6,6 +6,13 @@ use actin_cosserat::{
 };
 use actin_mechanics::{State, Vector3};
 
+/// Largest ratio of a segment to the persistence length at which overdamped steps of the relaxation time of a segment
+/// are accurate to 1 %.
+///
+/// # Source
+/// Table of `actin_brownian::Brownian`.
+pub const COARSE_IN_HEAT: f64 = 0.02;
+
 /// Rod with its laws and their ranges.
 #[derive(Debug)]
 pub(crate) struct Rod {
@@ -19,6 +26,19 @@ pub(crate) struct Rod {
     pub joined: [Vec<JoinedElement>; 2],
     /// Monitor of twist stability, where an axial force can destabilise the twist.
     pub twist_watch: Option<TwistWatch>,
+}
+
+impl Rod {
+    pub(crate) fn longest_segment(&self) -> f64 {
+        let lengths = self.layout.segment_lengths().iter();
+        lengths.copied().fold(0.0, f64::max)
+    }
+
+    /// Ratio of the longest segment to the persistence length at the thermal energy `kt` (pN nm).
+    pub(crate) fn over_persistence_length(&self, kt: f64) -> f64 {
+        let bend = self.material.bending_tangent(Vector3::zeros());
+        kt * self.longest_segment() / bend[(0, 0)].min(bend[(1, 1)])
+    }
 }
 
 /// Law of a monitored rod and its end conditions.

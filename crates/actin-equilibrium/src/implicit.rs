@@ -28,7 +28,7 @@ pub struct ImplicitSolver {
     loads: Vec<f64>,
     clusters: Clusters,
     /// Frames that spin about their third axes.
-    spins: Vec<bool>,
+    spins: Vec<Option<f64>>,
     from: Option<State>,
     /// Number of patterns so far.
     patterns: u64,
@@ -80,10 +80,15 @@ impl ImplicitSolver {
     /// [`advance_along`](Self::advance_along) applies them last and without limit.
     pub fn set_spinning_frames(&mut self, frames: &[usize]) {
         let count = frames.iter().max().map_or(0, |most| most + 1);
-        self.spins = vec![false; count];
+        self.spins = vec![None; count];
         for &frame in frames {
-            self.spins[frame] = true;
+            self.spins[frame] = Some(0.0);
         }
+    }
+
+    /// Rotation of a spinning frame about its third axis in the last step (rad), which may be more than a turn.
+    pub fn spin(&self, frame: usize) -> f64 {
+        self.spins.get(frame).copied().flatten().unwrap_or(0.0)
     }
 
     /// Layout of the unknowns.
@@ -349,7 +354,7 @@ impl ImplicitSolver {
         let (layout, step) = (&self.layout, &self.step);
         let mut sizes = Vec::new();
         for round in 0..=SHORTENINGS {
-            let limits = (&self.spins[..], limits, &shares[..]);
+            let limits = (&mut self.spins[..], limits, &shares[..]);
             sizes = self.clusters.advance(layout, (&from, state), step, limits);
             let approaches = approaches(&from, state);
             if approaches.is_empty() {

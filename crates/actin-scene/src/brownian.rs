@@ -34,8 +34,8 @@ pub struct Brownian {
     /// interval between records.
     ///
     /// Default for rods at a temperature: the bending relaxation time of a segment, 180 ns for 40 nm. Means are
-    /// accurate to 1 % for segments below 1/50 of the persistence length, energies of stiff linkers to 6 %. Stages, loads, rates, shear or records can require shorter steps. Default for monomers
-    /// with `QuasiHarmonic` interfaces: the step of segments of a fifth of the filament's length, at most 40
+    /// accurate to 1 % for segments below 1/50 of the persistence length, energies of stiff linkers to 6 %. Longer
+    /// segments, stages, loads, rates, shear or records can require shorter steps. Default for monomers with `QuasiHarmonic` interfaces: the step of segments of a fifth of the filament's length, at most 40
     /// nm. Default for other monomers at a temperature and with `repulsion`: 50 times the fastest relaxation
     /// time. Strains then have their thermal energy to 1 % on segments of 20 nm or more. Default at temperature
     /// 0: a twentieth of the time between records, at most a hundredth of the time in which a stage or load

@@ -1,9 +1,7 @@
 //! Warnings on segments that are too long for bending, or too short for random stress.
 
-use crate::Assembly;
-use crate::Rod;
 use crate::scene::{Hold, RodLaw, Task};
-use actin_mechanics::Vector3;
+use crate::{Assembly, COARSE_IN_HEAT, Rod};
 
 /// Largest relative error of displacements without a warning.
 const LONG: f64 = 0.1;
@@ -18,14 +16,6 @@ const FINE: f64 = 0.01;
 /// `docs/measured/heat.md`, "Segment length".
 const SHORTEST_IN_WATER_NM: f64 = 15.0;
 
-/// Largest ratio of a segment to the persistence length at which default steps of `Brownian` are
-/// accurate. Persistence lengths of free rods at ratios of 0.1 and 0.27 are 4.7 and 14 to 17 % too
-/// long: about half of the ratio.
-const COARSE: f64 = 0.02;
-
-/// Bending rigidity of actin (pN nm^2), for laws that are not linear.
-const BEND_PN_NM2: f64 = 4e4;
-
 impl Assembly {
     /// Warning on default steps of `Brownian` for rods whose segments bend far in heat.
     pub(super) fn coarse_in_water(&self) -> Option<String> {
@@ -33,32 +23,17 @@ impl Assembly {
             return None;
         };
         let kt = self.scene.thermal()?.energy_pn_nm();
-        let ratio = |rod: &Rod| {
-            let bend = match self.rod_model_of(rod.section).law {
-                RodLaw::Constant => rod.material.bending_tangent(Vector3::zeros())[(0, 0)],
-                _ => BEND_PN_NM2,
-            };
-            let longest = rod
-                .layout
-                .segment_lengths()
-                .iter()
-                .copied()
-                .fold(0.0, f64::max);
-            (kt * longest / bend, longest)
-        };
-        let rods = self
-            .rods
-            .iter()
-            .filter(|rod| rod.layout.segment_lengths().len() > 1);
-        let (ratio, longest) = rods.map(ratio).max_by(|a, b| a.0.total_cmp(&b.0))?;
-        (motion.time_step_ns.is_none() && ratio > COARSE).then(|| {
+        let rods = self.rods.iter();
+        let bent = rods.filter(|rod| rod.layout.segment_lengths().len() > 1);
+        let rods = bent.map(|rod| (rod.over_persistence_length(kt), rod.longest_segment()));
+        let (ratio, longest) = rods.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        (motion.time_step_ns.is_none() && ratio > COARSE_IN_HEAT).then(|| {
             format!(
-                "segments of {longest:.1} nm bend by {:.2} rad (rms) against each other: with steps by default, persistence \
-                 lengths of free rods are about {:.0} % too long. Use segments of at most {:.1} nm, or steps \
-                 (time_step_ns) thirty times shorter",
+                "segments of {longest:.1} nm bend by {:.2} rad (rms) against each other: mean bending angles of free rods \
+                 have errors of up to {:.0} % in steps by default, less in rods of many segments. Use segments of at most {:.1} nm for 1 %",
                 (2.0 * ratio).sqrt(),
-                50.0 * ratio,
-                longest * COARSE / ratio
+                60.0 * ratio,
+                longest * COARSE_IN_HEAT / ratio
             )
         })
     }
@@ -193,7 +168,10 @@ mod tests {
             assembly.coarse_in_water()
         };
         let note = noted(3, "").unwrap();
-        assert!(note.contains("about 5 % too long"), "{note}");
+        assert!(
+            note.contains("errors of up to 6 % in steps by default"),
+            "{note}"
+        );
         assert_eq!(noted(30, ""), None);
         assert_eq!(noted(3, "time_step_ns: 1000.0"), None);
     }

@@ -1,6 +1,7 @@
 //! Solution of steps with random stress.
 
-use super::{Brownian, LARGEST_TURN, spin};
+use super::turn::spin;
+use super::{Brownian, LARGEST_TURN};
 use crate::components::{Components, Subset};
 use crate::progress::Progress;
 use crate::stress::StepMatrix;
@@ -29,6 +30,7 @@ impl Brownian {
         self.components
             .begin_step(system.interactions(), system.state());
         self.progress = Progress::default();
+        self.spins.fill(0.0);
         self.begin_iterations();
         let mut is_solved = false;
         for _ in 0..self.limits.iterations {
@@ -80,11 +82,16 @@ impl Brownian {
     /// pass through each other.
     fn advance(&mut self, system: &mut System, limits: &StepSize) -> Vec<ComponentStep> {
         let (state, interactions) = system.state_mut_and_interactions();
-        self.solver.advance_along(state, limits, |from, to| {
+        let steps = self.solver.advance_along(state, limits, |from, to| {
             let all = interactions.iter();
             all.flat_map(|interaction| interaction.approaches(from, to))
                 .collect()
-        })
+        });
+        for i in (0..state.frames.len()).filter(|&i| self.is_axial[i]) {
+            let estimate = self.spins[i] + self.solver.spin(i);
+            self.spins[i] = spin(&self.start, state, i, estimate);
+        }
+        steps
     }
 
     /// Updates the components if the pattern of the matrix has changed, and restarts the
@@ -141,12 +148,8 @@ impl Brownian {
             }
         }
         let (state, interactions) = (system.state(), system.interactions());
-        self.find_middle(state);
-        self.find_velocities(state, h, 0.5);
+        self.find_velocities_at_middle(state, h);
         let components = &self.components;
-        for &i in self.axial.iter().filter(|&&i| components.has_frame(i)) {
-            self.spins[i] = spin(&self.start, state, i);
-        }
         self.stresses
             .turn_back(interactions, components, &self.spins);
         self.residual.clone_from(&self.loads);

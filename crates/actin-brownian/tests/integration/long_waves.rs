@@ -57,6 +57,49 @@ fn bending_energy_of_a_joint_is_exact() {
     assert!((found[0].0 - 1.0).abs() < 0.03, "{found:?}");
 }
 
+/// Prints the table of the module documentation of `stepper`. The error between neighbours is at most 1 % for segments
+/// below a fiftieth of the persistence length; for longer ones it is at most 0.6 times this ratio.
+#[test]
+#[ignore = "takes seven minutes"]
+fn accuracy_of_long_steps() {
+    let cases = [
+        (12_u16, 40.0, 100.0),
+        (12, 40.0, 300.0),
+        (12, 40.0, 1000.0),
+        (25, 40.0, 300.0),
+        (25, 40.0, 1389.0),
+        (12, 100.0, 4000.0),
+        (2, 400.0, 1.84e6),
+        (12, 400.0, 1.84e6),
+        (12, 400.0, 6.1e4),
+        (2, 1000.0, 7.2e7),
+        (12, 1000.0, 7.2e7),
+        (12, 1000.0, 2.4e6),
+    ];
+    for (segments, segment, h) in cases {
+        let span = (segments - 1).min(10);
+        let found = warmth((segments.into(), segment), h, 400_000, &[1, span]);
+        let rows = found
+            .iter()
+            .map(|(mean, error)| format!("{mean:.4} +- {error:.4}"));
+        let rows = rows.collect::<Vec<_>>().join(" | ");
+        println!("| {segments} of {segment} nm | {h} | {rows} |");
+        let ratio = segment * KT / rigidities().bend.x;
+        let bound = (0.6 * ratio).max(0.01) + 3.0 * found[0].1;
+        assert!((found[0].0 - 1.0).abs() < bound, "{found:?}");
+    }
+}
+
+/// Rods of long segments spin by ten turns in a step of the relaxation time of a segment.
+#[test]
+fn coarse_rods_need_few_iterations() {
+    let h = 7.2e7;
+    let (mut system, mut stepper, _) = free_rod(12, 12_000.0, (KT, 3), |_, _| Vec::new());
+    let steps = 300;
+    advance(&mut system, &mut stepper, (0, steps), h, |_| ());
+    assert!(stepper.iterations() < 7 * steps, "{}", stepper.iterations());
+}
+
 fn mean_and_error(values: &[f64]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;

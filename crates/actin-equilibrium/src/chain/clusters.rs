@@ -123,17 +123,18 @@ impl Clusters {
 
     /// Moves the bodies of `to`, a copy of `from`, and returns the unlimited extent of the step of
     /// each cluster. The step of a cluster is shortened to the limits, and then to a share. Free
-    /// clusters keep their mean displacement. Spins about third axes are applied last.
+    /// clusters keep their mean displacement. Spins about third axes are applied last and recorded in `spins`.
     pub(crate) fn advance(
         &self,
         layout: &Layout,
         (from, to): (&State, &mut State),
         step: &[f64],
-        (spins, limits, shares): (&[bool], &StepSize, &[f64]),
+        (spins, limits, shares): (&mut [Option<f64>], &StepSize, &[f64]),
     ) -> Vec<StepSize> {
         if step.iter().any(|value| !value.is_finite()) {
             return vec![StepSize::INFINITE; self.all.len()];
         }
+        spins.iter_mut().flatten().for_each(|spin| *spin = 0.0);
         let mut tilts = step.to_vec();
         let mut velocities = (
             Vectors::zeros(from.points.len()),
@@ -145,8 +146,10 @@ impl Clusters {
                 sizes.push(StepSize::default());
                 continue;
             }
-            let spinning = || layout.spinning(&cluster.nodes, spins);
-            spinning().for_each(|(_, at)| tilts[at] = 0.0);
+            let spinning: Vec<_> = layout.spinning(&cluster.nodes, spins).collect();
+            for &(_, at) in &spinning {
+                tilts[at] = 0.0;
+            }
             let own = layout.extent_of(&cluster.nodes, &tilts);
             let scale = (limits.rotation / own.rotation)
                 .min(limits.displacement / own.displacement)
@@ -155,8 +158,10 @@ impl Clusters {
             layout.apply_to(&cluster.nodes, to, &tilts, scale);
             layout.find_velocities(&cluster.nodes, from, &tilts, &mut velocities);
             cluster.carry(from, &velocities, scale, to);
-            for (i, at) in spinning() {
-                let turn = rotation::exp(Vector3::z() * (step[at] * scale));
+            for (i, at) in spinning {
+                let spin = step[at] * scale;
+                spins[i] = Some(spin);
+                let turn = rotation::exp(Vector3::z() * spin);
                 let q = to.frames.orientation.get(i) * turn;
                 let q = UnitQuaternion::new_normalize(q.into_inner());
                 to.frames.orientation.set(i, q);
@@ -177,9 +182,15 @@ fn of_nodes(clusters: &[Cluster], layout: &Layout) -> Vec<usize> {
 
 impl Layout {
     /// Frames that may spin, with the index of their unknown.
-    fn spinning(&self, nodes: &[usize], spins: &[bool]) -> impl Iterator<Item = (usize, usize)> {
+    fn spinning(
+        &self,
+        nodes: &[usize],
+        spins: &[Option<f64>],
+    ) -> impl Iterator<Item = (usize, usize)> {
         nodes.iter().filter_map(|&k| match self.node(k) {
-            Node::Frame(i) if spins.get(i) == Some(&true) => Some((i, self.range(k).start + 2)),
+            Node::Frame(i) if spins.get(i).is_some_and(Option::is_some) => {
+                Some((i, self.range(k).start + 2))
+            }
             Node::Frame(_) | Node::Point(_) | Node::Group(_) => None,
         })
     }
