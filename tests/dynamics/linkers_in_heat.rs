@@ -130,7 +130,7 @@ fn long_steps_keep_the_energy_of_linkers_with_a_rest_length() {
             rest_length_nm,
             keys: "stiffness_pn_per_nm: 2.0",
             step_ns: 5000.0,
-            steps: 1000,
+            steps: 600,
         };
         let (square, spread) = (rest_length_nm.powi(2), KBT / 2.0);
         let exact = 0.5 * (square + 3.0 * spread) / (square + spread);

@@ -285,7 +285,7 @@ fn means_over_seeds_are_compared_in_heat() {
     let hot = "Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 108.0)]),
         clamps: [Clamp(end: Start)],
-        task: Brownian(duration_ms: 0.002, temperature_k: 298.0, interfaces: QuasiHarmonic(sampled_ns: 2.0)),
+        task: Brownian(duration_ms: 0.001, temperature_k: 298.0, interfaces: QuasiHarmonic(sampled_ns: 2.0)),
     )";
     let found = traded(hot, |options| options.error = 0.1);
     let names: Vec<&str> = found.items.iter().map(|item| item.name.as_str()).collect();

@@ -225,12 +225,12 @@ mod tests {
             Plane(at_nm: (-5.0, 0.0, 0.0), normal: (1.0, 0.0, 0.0)),
             Plane(at_nm: (5.0, 0.0, 0.0), normal: (-1.0, 0.0, 0.0)),
         ]),";
-        let long = errors(8e3, walls);
+        let long = errors(5e3, walls);
         assert!(
             long.iter().any(|error| error.term == "repulsion"),
             "{long:?}"
         );
-        assert_eq!(errors(4e3, ""), []);
+        assert_eq!(errors(2.5e3, ""), []);
     }
 
     /// Mean force of a wall on each filament, over all records and two walls.
