@@ -490,7 +490,9 @@ impl Brownian {
         let components = &self.components;
         for i in (0..state.frames.len()).filter(|&i| components.has_frame(i)) {
             let turn = if self.is_axial[i] {
-                Turn::with_spin(&self.start, state, i, self.spins[i])
+                let turn = Turn::with_spin(&self.start, state, i, self.spins[i]);
+                self.spins[i] = turn.vector.z;
+                turn
             } else {
                 Turn::between(&self.start, state, i)
             };

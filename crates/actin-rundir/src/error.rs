@@ -15,7 +15,7 @@ pub enum RunDirectoryError {
     /// The directory is not empty.
     #[error(
         "{} exists and is not empty: results are never overwritten without request; \
-         name another directory, or request overwriting", .0.display()
+         name another directory, or overwrite them (--overwrite; in Python overwrite=True)", .0.display()
     )]
     NotEmpty(PathBuf),
     /// A directory to be overwritten has no manifest.

@@ -1,6 +1,5 @@
 //! Solution of steps with random stress.
 
-use super::turn::spin;
 use super::{Brownian, LARGEST_TURN};
 use crate::components::{Components, Subset};
 use crate::progress::Progress;
@@ -87,9 +86,8 @@ impl Brownian {
             all.flat_map(|interaction| interaction.approaches(from, to))
                 .collect()
         });
-        for i in (0..state.frames.len()).filter(|&i| self.is_axial[i]) {
-            let estimate = self.spins[i] + self.solver.spin(i);
-            self.spins[i] = spin(&self.start, state, i, estimate);
+        for i in (0..self.spins.len()).filter(|&i| self.is_axial[i]) {
+            self.spins[i] += self.solver.spin(i);
         }
         steps
     }

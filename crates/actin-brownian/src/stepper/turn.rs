@@ -10,8 +10,9 @@ pub(super) struct Turn {
     pub(super) middle: UnitQuaternion,
     /// Rotation vector (rad), in axes of `middle`.
     pub(super) vector: Vector3,
-    /// Rotation from the axes of the end to those of `vector` about the third axis (rad).
-    pub(super) back: f64,
+    /// Sine and cosine of the rotation about the third axis from the axes of `middle` to those of
+    /// the end.
+    half_spin: [f64; 2],
 }
 
 impl Turn {
@@ -29,36 +30,70 @@ impl Turn {
         Self {
             middle: start * rotation::exp(vector * 0.5),
             vector,
-            back: 0.0,
+            half_spin: [0.0, 1.0],
         }
     }
 
-    /// Rotation of frame `i`, which consists of a tilt about a transverse axis and half of the `spin` (rad) before
-    /// and after it.
-    pub(super) fn with_spin(from: &State, to: &State, i: usize, spin: f64) -> Self {
+    /// Rotation of frame `i` by any number of turns about its third axis: a tilt about a transverse
+    /// axis, with half of the spin before and half of it after the tilt. The quaternions resolve
+    /// the spin up to multiples of two turns; it is the nearest one to `estimate` (rad).
+    pub(super) fn with_spin(from: &State, to: &State, i: usize, estimate: f64) -> Self {
         let start = from.frames.orientation.get(i);
+        let q = start.inverse() * to.frames.orientation.get(i);
+        let spin = 2.0 * q.k.atan2(q.w);
+        let spin = spin + 2.0 * TAU * ((estimate - spin) / (2.0 * TAU)).round();
         let half = rotation::exp(Vector3::z() * (0.5 * spin));
-        let tilt = rotation::log(
-            half.inverse() * start.inverse() * to.frames.orientation.get(i) * half.inverse(),
-        );
+        let tilt = rotation::log(half.inverse() * q * half.inverse());
         Self {
             middle: start * half * rotation::exp(tilt * 0.5),
-            vector: tilt + Vector3::z() * spin,
-            back: 0.5 * spin,
+            vector: Vector3::new(tilt.x, tilt.y, spin),
+            half_spin: [2.0 * half.k * half.w, half.w * half.w - half.k * half.k],
         }
     }
 
     /// Transforms a vector from the axes of `middle` to those of the end.
     pub(super) fn in_axes_of_end(&self, v: Vector3) -> Vector3 {
-        let (sin, cos) = self.back.sin_cos();
+        let [sin, cos] = self.half_spin;
         Vector3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z)
     }
 }
 
-/// Spin of frame `i` about its third axis within a step (rad), nearest to `estimate`. The quaternions resolve it up to
-/// multiples of two turns.
-pub(super) fn spin(from: &State, to: &State, i: usize, estimate: f64) -> f64 {
-    let q = from.frames.orientation.get(i).inverse() * to.frames.orientation.get(i);
-    let spin = 2.0 * q.k.atan2(q.w);
-    spin + 2.0 * TAU * ((estimate - spin) / (2.0 * TAU)).round()
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use actin_mechanics::{Frame, Inertia};
+
+    fn state(q: UnitQuaternion) -> State {
+        let mut state = State::default();
+        state.frames.push(Frame {
+            orientation: q,
+            inertia: Inertia::from_moments([1.0; 3]).unwrap(),
+        });
+        state
+    }
+
+    #[test]
+    fn turns_of_any_number_are_resolved() {
+        let start = rotation::exp(Vector3::new(0.3, -0.2, 0.9));
+        let about = |angle: f64| rotation::exp(Vector3::z() * angle);
+        let tilt = Vector3::new(0.1, -0.3, 0.0);
+        for spin in [-41.0, -7.0, -3.2, 0.0, 0.4, 6.2, 6.4, 20.0_f64] {
+            let end = start * about(0.5 * spin) * rotation::exp(tilt) * about(0.5 * spin);
+            let (from, to) = (state(start), state(end));
+            let turn = Turn::with_spin(&from, &to, 0, spin + 3.0);
+            assert!((turn.vector - tilt - Vector3::z() * spin).norm() < 1e-12);
+            let axis = (start * about(0.5 * spin) * rotation::exp(tilt * 0.5)) * Vector3::z();
+            assert!((turn.middle * Vector3::z() - axis).norm() < 1e-12);
+            let v = Vector3::new(1.0, 2.0, 3.0);
+            let same = about(-0.5 * spin) * v;
+            assert!((turn.in_axes_of_end(v) - same).norm() < 1e-12);
+        }
+        let (from, to) = (state(start), state(start * rotation::exp(tilt)));
+        let [one, other] = [
+            Turn::between(&from, &to, 0),
+            Turn::with_spin(&from, &to, 0, 0.0),
+        ];
+        assert!((one.vector - other.vector).norm() < 1e-15);
+        assert!(one.middle.angle_to(&other.middle) < 1e-7);
+    }
 }

@@ -5,9 +5,9 @@ use super::estimate::LongestStep;
 use super::recorder::Recorder;
 use super::step_check::StepCheck;
 use super::unknowns::layout;
-use super::{Estimate, Failure, Outcome, long_steps};
+use super::{Estimate, Failure, Outcome, long_steps, spins};
+use crate::Assembly;
 use crate::scene::{Brownian as Task, Flow, Fluid, SceneProblem, Task as AnyTask};
-use crate::{Assembly, SectionSpan};
 use actin_assembly::problem_at;
 use actin_brownian::{Brownian, Layout, Relaxation};
 use actin_integrate::{POSITION_VERLET, Run};
@@ -186,36 +186,13 @@ impl Estimate {
         let noise = noise.map_or((0.0, 0), |t| (t.energy_pn_nm(), t.seed));
         let stepper = Brownian::new(system, layout, friction, noise).map_err(problem_at("task"))?;
         Ok(if self.has_random_stress() {
-            let held = held_off_axis(assembly);
-            stepper.with_spinning_frames(system, |frame| !held[assembly.filament_of_frame(frame)])
+            let coupled = spins::are_coupled(assembly);
+            stepper
+                .with_spinning_frames(system, |frame| !coupled[assembly.filament_of_frame(frame)])
         } else {
             stepper.with_midpoint_steps()
         })
     }
-}
-
-/// Returns for each filament whether other elements than one rod are joined to its frames off the axis:
-/// other sections, hinged walls, beads or linkers with stiffness against tilt or twist.
-fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
-    let sections = (0..assembly.filaments.len()).map(|filament| assembly.sections_of(filament));
-    let mut held: Vec<bool> = sections
-        .map(|sections| sections.len() != 1 || sections.iter().any(SectionSpan::is_ellipsoids))
-        .collect();
-    for clamp in assembly.scene.clamps.iter().filter(|c| c.hinge.is_some()) {
-        held[clamp.filament] = true;
-    }
-    let beads = assembly.scene.beads.iter();
-    for bead in beads.filter(|bead| bead.site.radius_nm > 0.0) {
-        held[bead.site.filament] = true;
-    }
-    let linkers = assembly.scene.linkers.iter();
-    for linker in linkers.filter(|linker| linker.angular().iter().any(|(_, k)| *k > 0.0)) {
-        held[linker.filament] = true;
-        if let Some(other) = &linker.to {
-            held[other.filament] = true;
-        }
-    }
-    held
 }
 
 /// Flow of the fluid, including the shear of a periodic box.

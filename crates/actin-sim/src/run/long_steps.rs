@@ -1,6 +1,7 @@
 //! Default steps of thermal overdamped motion of rods and quasi-harmonic monomers. Records and
 //! changes in time limit the step, not the relaxation of stretch and shear.
 
+use super::spins;
 use crate::scene::{Brownian as Task, Resultant, RodLaw, SceneProblem, Setting};
 use crate::{Assembly, Resolution};
 use actin_assembly::{COARSE_IN_HEAT, COARSEST};
@@ -46,9 +47,11 @@ pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, S
     let changes = of_changes(assembly).into_iter();
     let changes = changes.map(|time| time / PER_CHANGE);
     longest = changes.chain(of_rates(assembly)).fold(longest, f64::min);
-    if is_athermal {
+    let Some(thermal) = motion.thermal else {
         return Ok(Some(longest));
-    }
+    };
+    let kt = thermal.energy_pn_nm();
+    longest = longest.min(spins::longest_step(assembly, task, kt)?);
     for (section, span) in assembly.sections.iter().enumerate() {
         let followed = match span.resolution {
             Resolution::Rod { segment_nm } => segment_nm,
@@ -58,7 +61,7 @@ pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, S
                 (whole / FOLLOWED).min(LONGEST_FOLLOWED_NM)
             }
         };
-        longest = longest.min(of_length(assembly, task, (section, followed))?);
+        longest = longest.min(of_length((assembly, task), (section, followed), kt)?);
     }
     Ok(Some(longest))
 }
@@ -77,9 +80,9 @@ pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, S
 /// Segments above [`COARSE_IN_HEAT`] bend so far that iterations for laws that couple strains fail: of 12 segments at ratios
 /// of 0.04 and 0.1 in 3 and 50 % of the steps, in 0.1 and 1 % of steps shorter by the square of the ratio.
 fn of_length(
-    assembly: &Assembly,
-    task: &Task,
+    (assembly, task): (&Assembly, &Task),
     (section, length): (usize, f64),
+    kt: f64,
 ) -> Result<f64, SceneProblem> {
     let filament = assembly.filament_of_section(section);
     let across = assembly.cylinder(&task.drag, filament)?.across();
@@ -90,7 +93,6 @@ fn of_length(
     let of_loads = TOO_COLD * across * length * bend.sqrt() / force.powf(1.5);
     let mut of_bending = across * length.powi(4) / bend;
     if model.law != RodLaw::Constant {
-        let kt = task.to_dynamics().thermal.map_or(0.0, |t| t.energy_pn_nm());
         let ratio = assembly.segment_over_persistence_length(section, kt);
         let excess = ratio.map_or(1.0, |ratio| (ratio / COARSE_IN_HEAT).max(1.0));
         of_bending /= excess.powi(2);

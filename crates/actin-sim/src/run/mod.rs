@@ -15,6 +15,7 @@ mod records;
 mod rest;
 mod sink;
 mod slip;
+mod spins;
 mod start;
 mod states;
 mod step_check;
