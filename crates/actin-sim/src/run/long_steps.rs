@@ -78,7 +78,7 @@ pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, S
 /// formula above a tenth.
 ///
 /// Segments above [`COARSE_IN_HEAT`] bend so far that iterations for laws that couple strains fail: of 12 segments at ratios
-/// of 0.04 and 0.1 in 3 and 50 % of the steps, in 0.1 and 1 % of steps shorter by the square of the ratio.
+/// of 0.04 and 0.1 in 3 and 50 % of the steps, in 0.1 and 0.2 % of steps shorter by the square of the ratio.
 fn of_length(
     (assembly, task): (&Assembly, &Task),
     (section, length): (usize, f64),

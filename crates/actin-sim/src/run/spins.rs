@@ -5,9 +5,11 @@ use crate::{Assembly, SectionSpan};
 use actin_mechanics::RandomStress;
 use std::collections::HashSet;
 
-/// Largest mean square of a coupled spin in a step (rad^2). Two filaments of 20 um in segments of 1 um, joined by a linker
-/// with stiffness against tilt, take 90 iterations per step, and none of 300 steps fails; with six times the square, one
-/// of 200 does.
+/// Largest mean square of a coupled spin in a step (rad^2).
+///
+/// Two filaments of 20 um in segments of 1 um, joined by a linker with stiffness against tilt, take
+/// 90 iterations per step, and no step of 300 fails. Six times this value is too much: a step fails
+/// within 220.
 const SQUARE: f64 = 0.5;
 
 /// Largest step (ns) in which filaments with coupled spin do not spin far in thermal motion: `<spin^2> = 2 kT h / (zeta L)`
@@ -27,9 +29,9 @@ pub(super) fn longest_step(
     Ok(longest)
 }
 
-/// Returns for each filament whether its spin about the axis is coupled to its other motion: because the law of the rod is
-/// not isotropic about the axis, or because other elements than one rod are joined to its frames off the axis, which are
-/// other sections, hinged walls, beads or linkers with stiffness against tilt or twist.
+/// Returns for each filament whether its spin about the axis is coupled to other motion: by a rod
+/// law that is not isotropic about the axis, or by elements that are joined to its frames off the
+/// axis (other sections, hinged walls, beads, linkers with stiffness against tilt or twist).
 pub(super) fn are_coupled(assembly: &Assembly) -> Vec<bool> {
     let sections = (0..assembly.filaments.len()).map(|filament| assembly.sections_of(filament));
     let mut coupled: Vec<bool> = sections
