@@ -76,7 +76,8 @@
 //! | 12 of 1000 nm | 2.4e6 | 1.0323 +- 0.0046 | 1.0090 +- 0.0246 |
 //!
 //! Segments above a fiftieth of the persistence length (200 nm) have errors of up to 0.6 times this
-//! ratio, also in steps thirty times shorter.
+//! ratio. In steps thirty times shorter, rods of many such segments bend too far by the same order;
+//! the cause is unknown.
 //!
 //! # Steps without noise
 //! Richardson extrapolation, in body axes, from one implicit step over `h` and two implicit steps
