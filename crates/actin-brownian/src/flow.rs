@@ -61,6 +61,9 @@ impl Flow {
     /// component along the axis is half of the vorticity.
     pub(crate) fn turning(&self, q: UnitQuaternion) -> Vector3 {
         let g = &self.gradient;
+        if *g == Matrix3::zeros() {
+            return Vector3::zeros();
+        }
         let curl = Vector3::new(
             g[(2, 1)] - g[(1, 2)],
             g[(0, 2)] - g[(2, 0)],

@@ -49,10 +49,10 @@
 //! first iteration.
 //!
 //! Rods that are isotropic about their axes spin by a radian in steps of microseconds, and by many
-//! turns in steps of milliseconds. Energies do not depend on this spin, and the matrix does not couple it to other unknowns
-//! ([`Brownian::with_spinning_frames`]). Linked chains are solved by conjugate gradients if this is
-//! cheaper than a factorisation of the whole matrix. The preconditioner consists of the factors of
-//! the single chains.
+//! turns in steps of milliseconds. Energies do not depend on this spin, and the matrix does not
+//! couple it to other unknowns ([`Brownian::with_spinning_frames`]). Linked chains are solved by
+//! conjugate gradients if this is cheaper than a factorisation of the whole matrix. The
+//! preconditioner consists of the factors of the single chains.
 //!
 //! # Accuracy
 //! The table lists the mean of `1 - cos(angle)` between segments of free rods, relative to its

@@ -10,8 +10,7 @@ pub(super) struct Turn {
     pub(super) middle: UnitQuaternion,
     /// Rotation vector (rad), in axes of `middle`.
     pub(super) vector: Vector3,
-    /// Sine and cosine of the rotation about the third axis from the axes of `middle` to those of
-    /// the end.
+    /// Sine and cosine of the rotation about the third axis from `middle` to the end.
     half_spin: [f64; 2],
 }
 
@@ -51,7 +50,7 @@ impl Turn {
         }
     }
 
-    /// Transforms a vector from the axes of `middle` to those of the end.
+    /// Transforms a vector from the axes of `middle` to the axes of the end.
     pub(super) fn in_axes_of_end(&self, v: Vector3) -> Vector3 {
         let [sin, cos] = self.half_spin;
         Vector3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z)

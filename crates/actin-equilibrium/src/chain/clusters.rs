@@ -131,10 +131,10 @@ impl Clusters {
         step: &[f64],
         (spins, limits, shares): (&mut [Option<f64>], &StepSize, &[f64]),
     ) -> Vec<StepSize> {
+        spins.iter_mut().flatten().for_each(|spin| *spin = 0.0);
         if step.iter().any(|value| !value.is_finite()) {
             return vec![StepSize::INFINITE; self.all.len()];
         }
-        spins.iter_mut().flatten().for_each(|spin| *spin = 0.0);
         let mut tilts = step.to_vec();
         let mut velocities = (
             Vectors::zeros(from.points.len()),

@@ -29,9 +29,11 @@ pub(super) fn longest_step(
     Ok(longest)
 }
 
-/// Returns for each filament whether its spin about the axis is coupled to other motion: by a rod
-/// law that is not isotropic about the axis, or by elements that are joined to its frames off the
-/// axis (other sections, hinged walls, beads, linkers with stiffness against tilt or twist).
+/// Returns for each filament whether its spin about the axis is coupled to other motion.
+///
+/// Rod laws couple it if they are not isotropic about the axis. Elements couple it if they are
+/// joined to frames off the axis: other sections, hinged walls, beads, and linkers with stiffness
+/// against tilt or twist.
 pub(super) fn are_coupled(assembly: &Assembly) -> Vec<bool> {
     let sections = (0..assembly.filaments.len()).map(|filament| assembly.sections_of(filament));
     let mut coupled: Vec<bool> = sections
