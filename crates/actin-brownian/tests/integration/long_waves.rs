@@ -3,7 +3,7 @@
 
 use crate::common;
 use actin_brownian::mechanics::{Vector3, rotation};
-use common::{advance, free_rod, rigidities};
+use common::{FRICTION, FrictionPerLength, advance, free_rod, free_rod_with, rigidities};
 
 const KT: f64 = 4.11;
 const BLOCKS: u64 = 20;
@@ -11,8 +11,17 @@ const BLOCKS: u64 = 20;
 /// Means of `1 - cos` over spans of segments and their standard errors, relative to the exact
 /// values. The rod has `segments` of a length (nm).
 fn warmth((segments, segment): (usize, f64), h: f64, steps: u64, spans: &[u16]) -> Vec<(f64, f64)> {
-    let length = segment * segments as f64;
-    let (mut system, mut stepper, rod) = free_rod(segments, length, (KT, 1), |_, _| Vec::new());
+    warmth_with(FRICTION, (segments, segment), (h, steps), spans)
+}
+
+fn warmth_with(
+    friction: FrictionPerLength,
+    (segments, segment): (usize, f64),
+    (h, steps): (f64, u64),
+    spans: &[u16],
+) -> Vec<(f64, f64)> {
+    let rod = (segments, segment * segments as f64);
+    let (mut system, mut stepper, rod) = free_rod_with(friction, rod, (KT, 1), |_, _| Vec::new());
     let (warm, each) = (steps / 50, steps / BLOCKS);
     advance(&mut system, &mut stepper, (0, warm), h, |_| ());
     let mut means = vec![Vec::new(); spans.len()];
@@ -88,6 +97,36 @@ fn accuracy_of_long_steps() {
         let bound = (0.6 * ratio).max(0.01) + 3.0 * found[0].1;
         assert!((found[0].0 - 1.0).abs() < bound, "{found:?}");
     }
+}
+
+/// Two segments in steps that resolve bending, but neither stretch nor twist. For isotropic friction,
+/// the derivatives of the two stretches and of the twist give the factor
+/// `sqrt(1 - 0.36 cos^2) (angle/2) / tan(angle/2)` of the density.
+#[test]
+#[ignore = "takes a minute"]
+fn stretch_and_twist_are_rigid_in_long_steps() {
+    let [_, across, about, _] = FRICTION;
+    let segment = 1000.0;
+    let friction = [across, across, about, 0.0];
+    let found = warmth_with(friction, (2, segment), (2e5, 4_000_000), &[1]);
+    let stiffness = rigidities().bend.x / (segment * KT);
+    let mean = |factor: fn(f64) -> f64| {
+        let angles = (1..600).map(|k| 0.005 * f64::from(k));
+        let (sum, weight) = angles.fold((0.0, 0.0), |(sum, weight), angle| {
+            let elastic = angle.sin() * (-0.5 * stiffness * angle * angle).exp();
+            let w = elastic * factor(angle);
+            (sum + w * (1.0 - angle.cos()), weight + w)
+        });
+        sum / weight
+    };
+    let rigid = mean(|angle| {
+        let stretch = (1.0 - 0.36 * angle.cos().powi(2)).sqrt();
+        stretch * 0.5 * angle / (0.5 * angle).tan()
+    }) / mean(|_| 1.0);
+    let (found, error) = found[0];
+    println!("{found:.4} +- {error:.4}, rigid: {rigid:.4}");
+    assert!((found - rigid).abs() < 3.0 * error + 0.004);
+    assert!((found - 1.0).abs() > 3.0 * error);
 }
 
 /// Rods of long segments spin by ten turns in a step of the relaxation time of a segment.

@@ -6,15 +6,21 @@ use actin_equilibrium::{BodyOrder, Layout};
 use actin_integrate::Stepper;
 use actin_mechanics::{Interaction, State, System, Vector3};
 
-/// Friction per length (pN ns/nm^2, pN ns): along, across, about the axis, tilt.
-pub(crate) const FRICTION: [f64; 4] = [1.5, 2.8, 150.0, 40.0];
+/// Along, across (pN ns/nm^2), about the axis, tilt (pN ns).
+pub(crate) type FrictionPerLength = [f64; 4];
+
+pub(crate) const FRICTION: FrictionPerLength = [1.5, 2.8, 150.0, 40.0];
 
 pub(crate) fn rigidities() -> Rigidities {
     Rigidities::table4()
 }
 
 pub(crate) fn friction_of(rod: &RodLayout) -> Friction {
-    let [along, across, about, tilt] = FRICTION;
+    friction_with(FRICTION, rod)
+}
+
+fn friction_with(per_length: FrictionPerLength, rod: &RodLayout) -> Friction {
+    let [along, across, about, tilt] = per_length;
     let mut friction = Friction::default();
     for (k, length) in rod.segment_lengths().iter().enumerate() {
         let (first, frame) = (rod.points().start + k, rod.frames().start + k);
@@ -49,7 +55,17 @@ pub(crate) fn law(rod: &RodLayout) -> Box<dyn Interaction> {
 pub(crate) fn free_rod(
     segments: usize,
     length: f64,
-    (thermal_energy, seed): (f64, u64),
+    noise: (f64, u64),
+    further: impl FnOnce(&mut State, &RodLayout) -> Vec<Box<dyn Interaction>>,
+) -> (System, Brownian, RodLayout) {
+    free_rod_with(FRICTION, (segments, length), noise, further)
+}
+
+/// Free rod of a number of segments and a length (nm), with thermal energy (pN nm) and seed.
+pub(crate) fn free_rod_with(
+    friction: FrictionPerLength,
+    (segments, length): (usize, f64),
+    noise: (f64, u64),
     further: impl FnOnce(&mut State, &RodLayout) -> Vec<Box<dyn Interaction>>,
 ) -> (System, Brownian, RodLayout) {
     let mut state = State::default();
@@ -59,8 +75,8 @@ pub(crate) fn free_rod(
     interactions.extend(further(&mut state, &rod));
     let layout = layout_of(&state, &rod);
     let system = System::new(state, interactions);
-    let noise = (thermal_energy, seed);
-    let steps = Brownian::new(&system, layout, friction_of(&rod), noise).unwrap();
+    let friction = friction_with(friction, &rod);
+    let steps = Brownian::new(&system, layout, friction, noise).unwrap();
     let steps = steps.with_spinning_frames(&system, |_| true);
     (system, steps, rod)
 }
