@@ -17,20 +17,20 @@ const FINE: f64 = 0.01;
 const SHORTEST_IN_WATER_NM: f64 = 15.0;
 
 impl Assembly {
-    /// Warning on default steps of `Brownian` for rods whose segments bend far in heat.
+    /// Warning on steps of `Brownian` for rods whose segments bend far in heat.
     pub(super) fn coarse_in_water(&self) -> Option<String> {
-        let Task::Brownian(motion) = &self.scene.task else {
+        if !matches!(self.scene.task, Task::Brownian(_)) {
             return None;
-        };
+        }
         let kt = self.scene.thermal()?.energy_pn_nm();
         let rods = self.rods.iter();
         let bent = rods.filter(|rod| rod.layout.segment_lengths().len() > 1);
         let rods = bent.map(|rod| (rod.over_persistence_length(kt), rod.longest_segment()));
         let (ratio, longest) = rods.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        (motion.time_step_ns.is_none() && ratio > COARSE_IN_HEAT).then(|| {
+        (ratio > COARSE_IN_HEAT).then(|| {
             format!(
                 "segments of {longest:.1} nm bend by {:.2} rad (rms) against each other: mean bending angles of free rods \
-                 have errors of up to {:.0} % in steps by default, less in rods of many segments. Use segments of at most {:.1} nm for 1 %",
+                 have errors of up to {:.0} %, also in shorter steps. Use segments of at most {:.1} nm for 1 %",
                 (2.0 * ratio).sqrt(),
                 60.0 * ratio,
                 longest * COARSE_IN_HEAT / ratio
