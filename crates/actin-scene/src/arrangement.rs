@@ -105,7 +105,8 @@ impl Arrangement {
         }
     }
 
-    fn count(&self) -> usize {
+    /// Number of filaments.
+    pub(super) fn count(&self) -> usize {
         match self {
             Self::Copies { count, .. }
             | Self::Random { count, .. }

@@ -20,6 +20,7 @@ mod drag;
 mod factor;
 mod fitted;
 mod flow;
+mod generated;
 mod imperfection;
 mod kinetics;
 mod law;

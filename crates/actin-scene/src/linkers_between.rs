@@ -195,6 +195,17 @@ SceneProblem::new(key, self.per_filament, rule)
         pairs
     }
 
+    /// Number of linkers of a scene with a number of filaments.
+    pub(super) fn count(&self, filaments: usize) -> usize {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a positive number; more than the number of pairs is refused"
+        )]
+        let count = (self.per_filament * filaments as f64).round().max(1.0) as usize;
+        count
+    }
+
     /// Reduces `pairs` to a random subset without common sites. On failure returns the numbers found and
     /// required.
     fn choose(
@@ -202,12 +213,7 @@ SceneProblem::new(key, self.per_filament, rule)
         pairs: &mut Vec<Pair>,
         (sites, filaments): (usize, usize),
     ) -> Result<(), (usize, usize)> {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a positive number; more than the number of pairs is refused"
-        )]
-        let wanted = (self.per_filament * filaments as f64).round().max(1.0) as usize;
+        let wanted = self.count(filaments);
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         let mut is_free = vec![true; sites];
         let mut chosen = 0;

@@ -25,7 +25,7 @@ pub(super) struct SceneFile {
     filaments: Option<Vec<Filament>>,
     /// Arrangements of many filaments: copies, random networks, bundles.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    arrangements: Vec<Arrangement>,
+    pub(super) arrangements: Vec<Arrangement>,
     /// Clamped ends. All other ends are free.
     #[serde(default)]
     clamps: Vec<Clamp>,
@@ -34,13 +34,13 @@ pub(super) struct SceneFile {
     loads: Vec<Load>,
     /// Springs from sites on filaments to fixed points or to other sites.
     #[serde(default)]
-    linkers: Vec<Linker>,
+    pub(super) linkers: Vec<Linker>,
     /// Random linkers between neighbouring filaments.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    linker_sets: Vec<LinkersBetween>,
+    pub(super) linker_sets: Vec<LinkersBetween>,
     /// Crosslinkers and motors that bind to filaments and unbind from them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    crosslinkers: Vec<Crosslinkers>,
+    pub(super) crosslinkers: Vec<Crosslinkers>,
     /// Beads on filaments, for optical traps.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     beads: Vec<Bead>,
@@ -147,6 +147,11 @@ impl SceneFile {
             check_filament(&filament, &key, &mut problems);
         }
         problems.found
+    }
+
+    /// Number of filaments of the keys `filament` and `filaments`.
+    pub(super) fn count_written_filaments(&self) -> usize {
+        self.filaments.as_ref().map_or(0, Vec::len) + usize::from(self.filament.is_some())
     }
 
     /// Returns the filaments of the keys `filament` or `filaments`. Scenes with arrangements may omit both.

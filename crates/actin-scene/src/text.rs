@@ -391,6 +391,7 @@ impl SceneText {
 
     /// Locates a problem: at its key or the innermost written parent, or in the override that set one of them.
     pub fn locate(&self, problem: &SceneProblem) -> SceneError {
+        let problem = &self.with_generating_key(problem);
         let root = &self.parsed.root;
         let steps = root.resolved(&problem.key);
         let indices = root.follow(&steps);
@@ -413,6 +414,22 @@ impl SceneText {
         }
         let error = SceneError::new(line_and_column(&self.written, start), &shown.to_string());
         SceneError { set, ..error }
+    }
+
+    /// Replaces the key of a generated filament or linker by the key that generates it.
+    fn with_generating_key(&self, problem: &SceneProblem) -> SceneProblem {
+        let is_body = ["filament", "linkers["]
+            .iter()
+            .any(|list| problem.key.starts_with(list));
+        let written = is_body
+            .then(|| self.readings::<SceneFile>().value)
+            .flatten();
+        let key = written.and_then(|written| written.generating_key(&problem.key));
+        let key = key.unwrap_or_else(|| problem.key.clone());
+        SceneProblem {
+            key,
+            ..problem.clone()
+        }
     }
 
     /// Returns `true` for keys of filament 0 if it is written in a list.

@@ -1,7 +1,7 @@
 //! Validation of a sweep with its scene, and its cost.
 
 use crate::design::Run;
-use crate::sweep::Axis;
+use crate::sweep::{Axis, Samples};
 use crate::{Design, Sweep, SweepError, chosen, rules};
 use actin_sim::{
     Override, ParseReport, Plan, Scene, SceneError, SceneProblem, SceneText, Summary, Timing,
@@ -120,6 +120,7 @@ impl ValidatedSweep {
         };
         let mut problems = opened.problems_of_values();
         problems.extend(opened.check_samples().err());
+        problems.extend(opened.replaced_seeds());
         problems.extend(opened.problems_of_results());
         all(problems).map(|()| opened)
     }
@@ -195,6 +196,39 @@ impl ValidatedSweep {
         let rule = "the scene has nothing random (sampled bonds, thermal noise, imperfections, linker events), so that all \
                     samples would be identical: remove samples";
         Err(SceneProblem::new("samples", "", rule))
+    }
+
+    /// Returns keys of seeds that the samples replace.
+    fn replaced_seeds(&self) -> Vec<SceneProblem> {
+        let Some(samples) = &self.sweep.samples else {
+            return Vec::new();
+        };
+        let fixed = self.sweep.set.iter().enumerate();
+        let fixed = fixed.map(|(i, one)| (format!("set[{i}]"), one.key.as_str()));
+        let axes = self.sweep.vary.iter().enumerate();
+        let varied = axes.flat_map(|(i, axis)| {
+            let keys = axis.keys().into_iter();
+            keys.map(move |key| (format!("vary[{i}]"), key))
+        });
+        let seeds = fixed.chain(varied).filter(|(_, key)| key.ends_with("seed"));
+        let rule = "has no effect, because the samples set this seed: remove the key, or its part from samples.of";
+        seeds
+            .filter(|(_, key)| self.is_replaced(samples, key))
+            .map(|(place, key)| SceneProblem::new(place, key, rule))
+            .collect()
+    }
+
+    fn is_replaced(&self, samples: &Samples, key: &str) -> bool {
+        let sampled = |value: &str| {
+            let mut text = self.base.clone();
+            set(&mut text, key, value, key).ok()?;
+            let mut scene = text.scene().ok()?;
+            for &what in &samples.of {
+                scene.reseed(what, 0);
+            }
+            Some(scene)
+        };
+        sampled("1").is_some_and(|one| sampled("2") == Some(one))
     }
 
     /// Returns results that do not occur in the summary of the first valid point.

@@ -154,26 +154,22 @@ mod tests {
 
     #[test]
     fn coarse_segments_in_water_are_noted() {
-        let noted = |segments: usize, step: &str| {
+        let noted = |segments: usize| {
             let text = format!(
                 "Scene(
                     filament: Filament(
                         sections: [Rod(from_nm: 0.0, to_nm: 3000.0, segments: {segments})],
                         rod: RodModel(law: Constant),
                     ),
-                    task: Brownian(duration_ms: 1.0, temperature_k: 298.0, {step}),
+                    task: Brownian(duration_ms: 1.0, temperature_k: 298.0),
                 )"
             );
             let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
             assembly.coarse_in_water()
         };
-        let note = noted(3, "").unwrap();
-        assert!(
-            note.contains("errors of up to 6 % in steps by default"),
-            "{note}"
-        );
-        assert_eq!(noted(30, ""), None);
-        assert_eq!(noted(3, "time_step_ns: 1000.0"), None);
+        let note = noted(3).unwrap();
+        assert!(note.contains("errors of up to 6 %"), "{note}");
+        assert_eq!(noted(30), None);
     }
 
     #[test]

@@ -186,6 +186,7 @@ of: [Bonds] => of: [Noise] => sweep.ron:8:5: samples: the scene has nothing rand
 filament.sections[1].to_nm => loads[0].force_pn => sweep.ron:6:9: vary[1] = loads[0].force_pn: is varied already, as loads[0].force_pn[2]
 filament.rod.law => loads[0].force_pn[2] => sweep.ron:5:9: vary[0] = loads[0].force_pn[2]: would replace set[0], which sets loads[0].force_pn[2]
 filament.rod.law", value: Fitted => filaments[0].sections[1].to_nm", value: 30.0 => sweep.ron:6:9: vary[1] = filament.sections[1].to_nm: would replace set[0], which sets filaments[0]
+filament.rod.law", value: Fitted => filament.monomers.seed", value: 5 => sweep.ron:3:11: set[0] = filament.monomers.seed: has no effect, because
 scene.ron => absent.ron => absent.ron:
 "#;
 
