@@ -45,7 +45,7 @@ pub(crate) fn newton(assembly: &Assembly, tolerance: f64) -> Newton {
         points: assembly.points.iter().map(|p| p.s_nm).collect(),
         frames: assembly.frames.iter().map(|f| f.s_nm).collect(),
     };
-    let layout = Layout::new(assembly.system.state(), Some(&order), vec![]).unwrap();
+    let layout = Layout::new(assembly.system.state(), Some(&order)).unwrap();
     Newton::new(layout, to(tolerance)).unwrap()
 }
 

@@ -195,13 +195,7 @@ fn one_by_one(assembly: &Assembly) -> BodyOrder {
 #[test]
 fn the_order_of_elimination_changes_the_fill_only() {
     let assembly = bundle();
-    let layout = || {
-        Layout::new(
-            assembly.system.state(),
-            Some(&one_by_one(&assembly)),
-            vec![],
-        )
-    };
+    let layout = || Layout::new(assembly.system.state(), Some(&one_by_one(&assembly)));
     let solve = |mut newton: Newton| {
         let mut state = assembly.rest.clone();
         let interactions = assembly.system.interactions();

@@ -56,7 +56,7 @@ impl Langevin {
         let mut solver = ImplicitSolver::new(layout);
         // Determines the order of unknowns.
         let step = 1.0;
-        solver.factorize((state, &loads), &[], &Resistance::new(&friction, step));
+        solver.factorize(state, &[], &Resistance::new(&friction, step));
         Ok(Self {
             noise: Noise::with_purpose(
                 PURPOSE,
@@ -90,8 +90,7 @@ impl Langevin {
                 .add_noise(state, strength, noise, &mut self.loads);
         }
         let resistance = Resistance::new(&self.friction, h);
-        self.solver
-            .factorize((state, &self.loads), &[], &resistance);
+        self.solver.factorize(state, &[], &resistance);
         let (points, frames) = self.solver.velocities(state, &self.loads);
         add(system.state_mut(), &points, &frames);
     }

@@ -1,6 +1,6 @@
 use crate::Friction;
 use actin_equilibrium::{ImplicitSolver, Layout, SolveError};
-use actin_mechanics::{Loads, System, Xorshift};
+use actin_mechanics::{System, Xorshift};
 use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Maximum number of subspace iterations.
@@ -36,16 +36,11 @@ impl Relaxation {
     pub fn new(system: &System, layout: Layout, friction: &Friction) -> Result<Self, SolveError> {
         ImplicitSolver::check(system.interactions())?;
         let state = system.state();
-        let mut loads = Loads::zeros(state);
-        for interaction in system.interactions() {
-            interaction.add_loads(state, &mut loads);
-        }
-        let at = (state, &loads);
         // Both matrices use the same order of unknowns.
         let mut stiffness = ImplicitSolver::new(layout);
-        stiffness.factorize(at, system.interactions(), &friction.times(SHIFT));
+        stiffness.factorize(state, system.interactions(), &friction.times(SHIFT));
         let mut fluid = ImplicitSolver::new(stiffness.layout().clone());
-        fluid.factorize(at, &[], &friction.times(1.0));
+        fluid.factorize(state, &[], &friction.times(1.0));
         Ok(Self { stiffness, fluid })
     }
 

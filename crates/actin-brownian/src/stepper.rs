@@ -220,7 +220,7 @@ impl Brownian {
         } else {
             layout.with_conjugate_gradients()
         });
-        solver.factorize((state, &loads), system.interactions(), &friction.times(1.0));
+        solver.factorize(state, system.interactions(), &friction.times(1.0));
         let elements = (friction.dashpots.len(), friction.turns.len());
         Ok(Self {
             noise: Noise::with_purpose(PURPOSE, seed, elements),
@@ -329,8 +329,8 @@ impl Brownian {
             self.friction
                 .add_noise(state, strength, noise, &mut self.residual);
             let friction = self.friction.times(1.0 / h);
-            let at = (state, &self.loads);
-            self.solver.factorize(at, system.interactions(), &friction);
+            self.solver
+                .factorize(state, system.interactions(), &friction);
             let state = system.state_mut();
             extent = self.solver.advance(state, &self.residual, LARGEST_TURN);
             if self.limits.hold(&extent) {

@@ -55,7 +55,7 @@ fn filament(monomers: usize) {
     let shares = vec![(monomers - 1, 0.5), (monomers - 2, 0.5)];
     let load = PointLoad::new(&state, shares, Vector3::x(), control).unwrap();
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(bonds), Box::new(load)];
-    let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).expect("it fits");
+    let layout = Layout::new(&state, Some(&in_order(&state))).expect("it fits");
     let mut newton =
         Newton::new(layout, NewtonOptions::default()).expect("the default options are valid");
     report(2 * monomers, &mut newton, &mut state, &terms);

@@ -1,15 +1,11 @@
 //! Assembly of the sparse stiffness.
 
 use crate::chain::Chain;
-use crate::group::Group;
 use crate::layout::{Layout, Node};
 use crate::links::{Block, LinkBlock, Links};
 use crate::pattern::{BlockPosition, Pattern};
 use crate::ties::Ties;
-use actin_mechanics::{
-    Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
-};
-use nalgebra::{Matrix3x6, Matrix6};
+use actin_mechanics::{Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness};
 use std::collections::BTreeMap;
 
 /// Matrix as a sum of parts, each of which couples bodies of few components.
@@ -79,7 +75,6 @@ impl Assembly {
         &mut self,
         interactions: &[Box<dyn Interaction>],
         state: &State,
-        loads: &Loads,
         layout: &mut Layout,
     ) -> bool {
         let other = None;
@@ -87,7 +82,7 @@ impl Assembly {
             interactions,
             other,
         };
-        self.update_with(&sum, (state, loads), layout)
+        self.update_with(&sum, state, layout)
     }
 
     /// Assembles a sum of parts. Returns `true` if the pattern is new; the unknowns may then have
@@ -95,7 +90,7 @@ impl Assembly {
     pub(crate) fn update_with(
         &mut self,
         parts: &dyn MatrixParts,
-        (state, loads): (&State, &Loads),
+        state: &State,
         layout: &mut Layout,
     ) -> bool {
         self.choose(&vec![true; parts.count()]);
@@ -125,17 +120,16 @@ impl Assembly {
             .as_ref()
             .expect("the pattern was created above");
         let mut target = Target::new(&mut self.values, pattern, layout);
-        target.add_all(state, self.blocks.blocks(), &pattern.places);
+        target.add_all(self.blocks.blocks(), &pattern.places);
         if pattern.has_links {
-            target.add_all(state, self.blocks.links(), &pattern.link_places);
+            target.add_all(self.blocks.links(), &pattern.link_places);
         } else {
             self.links.resize(parts.count(), Links::default());
             for (links, starts) in self.links.iter_mut().zip(self.starts.windows(2)) {
                 let blocks = &self.blocks.links()[starts[0][1]..starts[1][1]];
-                target.add_links(state, blocks, (pattern, links));
+                target.add_links(blocks, (pattern, links));
             }
         }
-        target.add_turning_of_groups(state, loads);
         self.find_linked();
         is_new
     }
@@ -158,7 +152,7 @@ impl Assembly {
         &mut self,
         (parts, is_chosen): (&dyn MatrixParts, &[bool]),
         is_selected: &[bool],
-        (state, loads): (&State, &Loads),
+        state: &State,
         layout: &Layout,
     ) -> bool {
         let Some(pattern) = &self.pattern else {
@@ -185,16 +179,15 @@ impl Assembly {
             if blocks.len() != end[0] - start[0] || !pattern.fits_from(start, &self.blocks) {
                 return false;
             }
-            target.add_all(state, blocks, &pattern.places[start[0]..]);
+            target.add_all(blocks, &pattern.places[start[0]..]);
             if !pattern.has_links {
-                target.add_links(state, links, (pattern, &mut self.links[k]));
+                target.add_links(links, (pattern, &mut self.links[k]));
             } else if links.len() == end[1] - start[1] {
-                target.add_all(state, links, &pattern.link_places[start[1]..]);
+                target.add_all(links, &pattern.link_places[start[1]..]);
             } else {
                 return false;
             }
         }
-        target.add_turning_of_groups(state, loads);
         self.find_linked();
         true
     }
@@ -228,7 +221,7 @@ impl Assembly {
         }
         let mut target = Target::onto(&mut self.values, pattern, layout);
         let blocks = self.turning_blocks.blocks();
-        target.add_all(state, blocks, &self.turning_places);
+        target.add_all(blocks, &self.turning_places);
     }
 
     /// Softness of each tie (pN/nm): magnitude of the most negative stiffness between its points,
@@ -262,7 +255,7 @@ impl Assembly {
             self.tie_places = pattern.places_of(&self.tie_blocks, layout);
         }
         let mut target = Target::new(&mut self.tie_values, pattern, layout);
-        target.add_all(state, self.tie_blocks.blocks(), &self.tie_places);
+        target.add_all(self.tie_blocks.blocks(), &self.tie_places);
     }
 
     pub(crate) fn ties(&self) -> &Ties {
@@ -376,39 +369,34 @@ impl<'a> Target<'a> {
         }
     }
 
-    fn add_all(&mut self, state: &State, blocks: &[Block], places: &[BlockPosition]) {
+    fn add_all(&mut self, blocks: &[Block], places: &[BlockPosition]) {
         for (&(a, b, block), &place) in blocks.iter().zip(places) {
             if self.has(place) {
-                self.add(state, a, b, &block, place);
+                self.add(a, b, &block, place);
             }
         }
     }
 
     /// Adds the blocks that are in the pattern, and replaces `links` by the others.
-    fn add_links(
-        &mut self,
-        state: &State,
-        blocks: &[Block],
-        (pattern, links): (&Pattern, &mut Links),
-    ) {
+    fn add_links(&mut self, blocks: &[Block], (pattern, links): (&Pattern, &mut Links)) {
         links.update_places(blocks, (pattern, self.layout));
         links.blocks.clear();
         for (&(a, b, block), &(_, _, place)) in blocks.iter().zip(&links.places) {
             match place {
-                Some(place) if self.has(place) => self.add(state, a, b, &block, place),
+                Some(place) if self.has(place) => self.add(a, b, &block, place),
                 Some(_) => {}
-                None => self.push_block(state, (a, b, block), &mut links.blocks),
+                None => self.push_block((a, b, block), &mut links.blocks),
             }
         }
     }
 
-    fn push_block(&self, state: &State, (a, b, block): Block, links: &mut Vec<LinkBlock>) {
+    fn push_block(&self, (a, b, block): Block, links: &mut Vec<LinkBlock>) {
         if let (Some(first), Some(second)) = (self.layout.node_of(a), self.layout.node_of(b)) {
             links.push(LinkBlock {
                 nodes: [first, second],
                 rows: self.layout.range(first),
                 columns: self.layout.range(second),
-                values: self.in_unknowns(state, a, b, &block),
+                values: self.in_unknowns(a, b, &block),
             });
         }
     }
@@ -422,14 +410,7 @@ impl<'a> Target<'a> {
         self.is_selected.is_none_or(|is_selected| is_selected[node])
     }
 
-    fn add(
-        &mut self,
-        state: &State,
-        a: Coordinates,
-        b: Coordinates,
-        block: &Matrix3,
-        place: BlockPosition,
-    ) {
+    fn add(&mut self, a: Coordinates, b: Coordinates, block: &Matrix3, place: BlockPosition) {
         match place {
             BlockPosition::Outside => {}
             BlockPosition::Body { at, .. } => self.add_columns(at, |j| j + 1, block),
@@ -438,7 +419,7 @@ impl<'a> Target<'a> {
             }
             BlockPosition::Bodies { at, .. } => self.add_columns(at, |_| 3, block),
             BlockPosition::Diagonal { node, twice } => {
-                let block = self.in_unknowns(state, a, b, block);
+                let block = self.in_unknowns(a, b, block);
                 let block = if twice {
                     block + block.transpose()
                 } else {
@@ -452,7 +433,7 @@ impl<'a> Target<'a> {
                 local,
                 transposed,
             } => {
-                let block = self.in_unknowns(state, a, b, block);
+                let block = self.in_unknowns(a, b, block);
                 self.add_above(row, column, local, transposed, |i, j| block[(i, j)]);
             }
         }
@@ -496,96 +477,25 @@ impl<'a> Target<'a> {
     }
 
     /// `A^T block B` with the derivatives `A`, `B` with respect to the unknowns.
-    fn in_unknowns(
-        &self,
-        state: &State,
-        a: Coordinates,
-        b: Coordinates,
-        block: &Matrix3,
-    ) -> Matrix6<f64> {
-        if [a, b].into_iter().all(|body| self.is_single(body)) {
-            return block.fixed_resize(0.0);
-        }
-        let a = self.derivative(state, a);
-        let b = self.derivative(state, b);
-        a.transpose() * (block * b)
-    }
-
-    fn is_single(&self, body: Coordinates) -> bool {
-        let node = self.layout.node_of(body).map(|node| self.layout.node(node));
-        !matches!(node, Some(Node::Group(_)))
-    }
-
-    /// Zero padded.
-    fn derivative(&self, state: &State, body: Coordinates) -> Matrix3x6<f64> {
-        let mut derivative = Matrix3x6::zeros();
-        let node = self.layout.node_of(body).map(|node| self.layout.node(node));
-        let Some(Node::Group(g)) = node else {
-            derivative.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(1.0);
-            return derivative;
-        };
-        let group = &self.layout.groups()[g];
-        for (k, column) in columns_of(group, state, body).enumerate() {
-            derivative.set_column(k, &column);
-        }
-        derivative
-    }
-
-    /// Second derivative of a rotated point `x = p + exp(theta) r` times its force:
-    ///
-    /// `d^2 x . g = (theta . g)(theta . r) - theta^2 (g . r)` with `g = -force`. Frames have no
-    /// such term.
-    fn add_turning_of_groups(&mut self, state: &State, loads: &Loads) {
-        let layout = self.layout;
-        for k in 0..layout.len() {
-            let Node::Group(g) = layout.node(k) else {
-                continue;
-            };
-            let group = &layout.groups()[g];
-            let is_left_out = self.is_selected.is_some_and(|is_selected| !is_selected[k]);
-            if group.rotations.is_empty() || is_left_out {
-                continue;
+    fn in_unknowns(&self, a: Coordinates, b: Coordinates, block: &Matrix3) -> Matrix3 {
+        match [a, b].map(|body| self.directions(body)) {
+            [None, None] => *block,
+            directions => {
+                let [a, b] = directions.map(|one| one.unwrap_or_else(Matrix3::identity));
+                a.transpose() * block * b
             }
-            let curvature = turning(group, state, loads);
-            let skip = group.translations.len();
-            self.add_diagonal(k, |i, j| {
-                if i < skip || j < skip {
-                    return 0.0;
-                }
-                let (a, b) = (group.rotations[i - skip], group.rotations[j - skip]);
-                a.dot(&(curvature * b))
-            });
         }
     }
-}
 
-/// `sum (g r^T + r g^T) / 2 - (g . r) I` over the points of a group.
-fn turning(group: &Group, state: &State, loads: &Loads) -> Matrix3 {
-    let pivot = group.pivot.position(state);
-    group
-        .points
-        .iter()
-        .map(|&i| {
-            let r = state.points.position.get(i) - pivot;
-            let g = -loads.force.get(i);
-            0.5 * (g * r.transpose() + r * g.transpose()) - Matrix3::identity() * g.dot(&r)
-        })
-        .sum()
-}
-
-fn columns_of<'a>(
-    group: &'a Group,
-    state: &'a State,
-    body: Coordinates,
-) -> impl Iterator<Item = Vector3> + 'a {
-    let pivot = group.pivot.position(state);
-    let along = group.translations.iter().map(move |&d| match body {
-        Coordinates::Point(_) => d,
-        Coordinates::Frame(_) => Vector3::zeros(),
-    });
-    let about = group.rotations.iter().map(move |axis| match body {
-        Coordinates::Point(i) => axis.cross(&(state.points.position.get(i) - pivot)),
-        Coordinates::Frame(i) => state.frames.orientation.get(i).inverse() * axis,
-    });
-    along.chain(about)
+    /// Directions of the slider of a body, as columns (zero padded).
+    fn directions(&self, body: Coordinates) -> Option<Matrix3> {
+        let Node::Slider(s) = self.layout.node(self.layout.node_of(body)?) else {
+            return None;
+        };
+        let mut columns = Matrix3::zeros();
+        for (k, direction) in self.layout.sliders()[s].directions.iter().enumerate() {
+            columns.set_column(k, direction);
+        }
+        Some(columns)
+    }
 }

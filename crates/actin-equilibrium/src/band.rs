@@ -287,7 +287,7 @@ mod tests {
             points: (0..n).map(|i| i as f64).collect(),
             frames: (0..n).map(|i| i as f64).collect(),
         };
-        let mut layout = Layout::new(&state, Some(&order), vec![]).unwrap();
+        let mut layout = Layout::new(&state, Some(&order)).unwrap();
         let mut blocks = Stiffness::default();
         let of = |i| [Coordinates::Point(i), Coordinates::Frame(i)];
         for i in 0..n {

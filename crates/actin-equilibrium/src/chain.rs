@@ -42,7 +42,7 @@ impl Chain {
         let mut links = Vec::new();
         for (rank, &k) in layout.sequence().iter().enumerate() {
             let latest = match layout.node(k) {
-                Node::Group(_) => None,
+                Node::Slider(_) => None,
                 Node::Frame(to) => frame_ties
                     .get(&to)
                     .and_then(|others| {
@@ -64,7 +64,7 @@ impl Chain {
             };
             links.extend(latest);
             match layout.node(k) {
-                Node::Group(_) => {}
+                Node::Slider(_) => {}
                 Node::Point(i) => place.points[i] = Some(rank + 1),
                 Node::Frame(i) => place.frames[i] = Some(rank + 1),
             }
@@ -127,7 +127,7 @@ impl Link {
     }
 }
 
-/// Position in the sequence of the layout; zero for held bodies and groups.
+/// Position in the sequence of the layout; zero for held bodies and sliders.
 struct Places {
     points: Vec<Option<usize>>,
     frames: Vec<Option<usize>>,
@@ -141,7 +141,7 @@ impl Places {
         };
         for k in 0..layout.len() {
             match layout.node(k) {
-                Node::Group(_) => {}
+                Node::Slider(_) => {}
                 Node::Point(i) => places.points[i] = None,
                 Node::Frame(i) => places.frames[i] = None,
             }

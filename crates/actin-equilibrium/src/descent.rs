@@ -337,7 +337,7 @@ impl Descent {
 
     /// The work of the loads is positive (trapezoidal rule), and the loads are smaller at the end.
     fn is_better_in_loads(&self, solver: &Solver, direction: &Direction, fraction: f64) -> bool {
-        let there = solver.work_along(&self.trial, &self.there.loads, &direction.step);
+        let there = solver.work_along(&self.there.loads, &direction.step);
         let work = 0.5 * fraction * (direction.slope + there);
         there.abs() <= direction.slope && work >= ENOUGH * predicted_decrease(direction, fraction)
     }

@@ -113,9 +113,7 @@ impl Solver {
         state: &State,
         loads: &Loads,
     ) {
-        let is_new = self
-            .assembly
-            .update(interactions, state, loads, &mut self.layout);
+        let is_new = self.assembly.update(interactions, state, &mut self.layout);
         self.work.assemblies += 1;
         if is_new {
             let factor = Factor::new(&self.assembly.pattern().symbolic);
@@ -126,7 +124,7 @@ impl Solver {
             self.layout.metric(self.turn_length, &mut self.metric);
         }
         self.reduced.resize(self.layout.unknowns(), 0.0);
-        self.layout.reduce(state, loads, &mut self.reduced);
+        self.layout.reduce(loads, &mut self.reduced);
     }
 
     /// Residual and its rounding error `eps |K| |u|`, where `u` is 1 for rotations.
@@ -440,9 +438,9 @@ impl Solver {
         }
     }
 
-    pub(crate) fn work_along(&self, state: &State, loads: &Loads, step: &[f64]) -> f64 {
+    pub(crate) fn work_along(&self, loads: &Loads, step: &[f64]) -> f64 {
         let mut reduced = vec![0.0; step.len()];
-        self.layout.reduce(state, loads, &mut reduced);
+        self.layout.reduce(loads, &mut reduced);
         dot(&reduced, step)
     }
 }

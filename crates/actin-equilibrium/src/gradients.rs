@@ -184,9 +184,7 @@ mod tests {
     use super::*;
     use crate::assemble::Sum;
     use crate::layout::{BodyOrder, Layout};
-    use actin_mechanics::{
-        Coordinates, Loads, Matrix3, Point, SecondOrder, State, Stiffness, Vector3,
-    };
+    use actin_mechanics::{Coordinates, Matrix3, Point, SecondOrder, State, Stiffness, Vector3};
     use std::iter;
 
     /// Two chains of ten points with soft springs across, and friction.
@@ -219,7 +217,7 @@ mod tests {
             interactions: &[],
             other: Some(&Ladder),
         };
-        assembly.update_with(&sum, (state, &Loads::zeros(state)), layout);
+        assembly.update_with(&sum, state, layout);
         assembly
     }
 
@@ -246,7 +244,7 @@ mod tests {
             points: (0..20).map(f64::from).collect(),
             frames: Vec::new(),
         };
-        let layout = Layout::new(&state, Some(&order), Vec::new()).unwrap();
+        let layout = Layout::new(&state, Some(&order)).unwrap();
         let mut direct_layout = layout.clone().with_links();
         let mut layout = layout.with_links();
         layout.choose_gradients();

@@ -104,12 +104,11 @@ impl ImplicitSolver {
         Solver::check(interactions)
     }
 
-    /// Factorises the stiffness of `interactions` at `state` under `loads` plus the blocks of
-    /// `added`. Returns `true` if the sum is positive definite. Zero pivots are replaced by
+    /// Factorises the stiffness of `interactions` at `state` plus the blocks of `added`. Returns `true` if the sum is positive definite. Zero pivots are replaced by
     /// rounding.
     pub fn factorize(
         &mut self,
-        (state, loads): (&State, &Loads),
+        state: &State,
         interactions: &[Box<dyn Interaction>],
         added: &dyn SecondOrder,
     ) -> bool {
@@ -117,14 +116,14 @@ impl ImplicitSolver {
             interactions,
             other: Some(added),
         };
-        self.factorize_parts((state, loads), &sum, None)
+        self.factorize_parts(state, &sum, None)
     }
 
     /// As [`factorize`](Self::factorize) for a sum of parts. With a selection, all other bodies are
     /// held, which requires [`allows_selection`](Self::allows_selection).
     pub fn factorize_parts(
         &mut self,
-        at: (&State, &Loads),
+        state: &State,
         parts: &dyn MatrixParts,
         selection: Option<Selection<'_>>,
     ) -> bool {
@@ -134,8 +133,8 @@ impl ImplicitSolver {
         let parts_of = (parts, chosen);
         let assembly = &mut self.assembly;
         assembly.choose(chosen);
-        let is_same = assembly.update_nodes(parts_of, &nodes, at, &self.layout);
-        let is_new = !is_same && assembly.update_with(parts, at, &mut self.layout);
+        let is_same = assembly.update_nodes(parts_of, &nodes, state, &self.layout);
+        let is_new = !is_same && assembly.update_with(parts, state, &mut self.layout);
         if is_new {
             self.begin_pattern();
         }
@@ -157,7 +156,7 @@ impl ImplicitSolver {
     /// If nothing has been factorised, or the changed parts do not couple the same bodies.
     pub fn refactorize_parts(
         &mut self,
-        at: (&State, &Loads),
+        state: &State,
         parts: &dyn MatrixParts,
         changed: Selection<'_>,
     ) -> bool {
@@ -165,7 +164,7 @@ impl ImplicitSolver {
         let parts_of = (parts, changed.parts);
         let is_same = self
             .assembly
-            .update_nodes(parts_of, &nodes, at, &self.layout);
+            .update_nodes(parts_of, &nodes, state, &self.layout);
         assert!(is_same, "changes of parts do not change the pattern");
         let columns = self.clusters.columns(&self.layout, changed.components);
         match &mut self.linear {
@@ -199,12 +198,12 @@ impl ImplicitSolver {
     /// of the components and without their links. Values of other components have no meaning.
     pub fn predicted_decreases(
         &mut self,
-        (state, loads): (&State, &Loads),
+        loads: &Loads,
         is_selected: impl Fn(usize) -> bool,
     ) -> Vec<f64> {
         let unknowns = self.layout.unknowns();
         self.loads.resize(unknowns, 0.0);
-        self.layout.reduce(state, loads, &mut self.loads);
+        self.layout.reduce(loads, &mut self.loads);
         self.step.clone_from(&self.loads);
         let is_selected: Vec<bool> = (0..self.components()).map(is_selected).collect();
         let columns = self.clusters.columns(&self.layout, &is_selected);
@@ -298,7 +297,7 @@ impl ImplicitSolver {
     /// If nothing has been factorised.
     pub fn velocities(&mut self, state: &State, loads: &Loads) -> (Vectors, Vectors) {
         self.step.resize(self.layout.unknowns(), 0.0);
-        self.layout.reduce(state, loads, &mut self.step);
+        self.layout.reduce(loads, &mut self.step);
         self.linear.solve(&self.assembly, &mut self.step);
         let (moved, mut turned) = self.layout.velocities(state, &self.step);
         for i in 0..turned.len() {
@@ -315,7 +314,7 @@ impl ImplicitSolver {
     /// If nothing has been factorised.
     pub fn advance(&mut self, state: &mut State, loads: &Loads, largest_turn: f64) -> StepSize {
         self.step.resize(self.layout.unknowns(), 0.0);
-        self.layout.reduce(state, loads, &mut self.step);
+        self.layout.reduce(loads, &mut self.step);
         self.linear.solve(&self.assembly, &mut self.step);
         let extent = self.layout.step_extent(&self.step);
         let scale = (largest_turn / extent.rotation).min(1.0);
@@ -323,14 +322,14 @@ impl ImplicitSolver {
         extent
     }
 
-    /// Solves for `loads`, generalised at `state`, as step for
+    /// Solves for `loads` as step for
     /// [`advance_along`](Self::advance_along). Returns `false` if the matrix proves indefinite.
     ///
     /// # Panics
     /// If nothing has been factorised.
-    pub fn find_step(&mut self, state: &State, loads: &Loads) -> bool {
+    pub fn find_step(&mut self, loads: &Loads) -> bool {
         self.step.resize(self.layout.unknowns(), 0.0);
-        self.layout.reduce(state, loads, &mut self.step);
+        self.layout.reduce(loads, &mut self.step);
         self.loads.clone_from(&self.step);
         self.linear.solve(&self.assembly, &mut self.step)
     }
@@ -406,9 +405,9 @@ impl ImplicitSolver {
                     let turned = UnitQuaternion::new_normalize((q * half).into_inner());
                     middle.frames.orientation.set(i, turned);
                 }
-                Node::Group(g) => {
-                    let group = &self.layout.groups()[g];
-                    group.points.iter().for_each(|&i| go_on(start, middle, i));
+                Node::Slider(s) => {
+                    let points = self.layout.sliders()[s].points.iter();
+                    points.for_each(|&i| go_on(start, middle, i));
                 }
             }
         }
@@ -476,7 +475,7 @@ mod tests {
         loads.force.set(0, Vector3::x() * 2.0);
         loads.force.set(1, Vector3::x() * 2.0);
         let mut solver = ImplicitSolver::new(Layout::free(&state));
-        solver.factorize((&state, &loads), &[], &Four);
+        solver.factorize(&state, &[], &Four);
         let extent = solver.advance(&mut state, &loads, 1.0);
         assert_eq!(state.points.position.get(0), Vector3::x() * 0.5);
         assert_eq!(state.points.position.get(1), Vector3::zeros());

@@ -1,14 +1,13 @@
 //! Map from unknowns to bodies.
 
-use crate::group::{Group, orthonormal};
-use actin_mechanics::{Coordinates, State, Vector3};
+use actin_mechanics::{Coordinates, Slider, State};
 use std::ops::Range;
 use thiserror::Error;
 
 /// Position of each body along the filament, for a banded matrix.
 ///
 /// Any monotone measure is suitable, for instance arc length (nm). Points and frames are sorted
-/// together. The position of a group is the largest position of its bodies.
+/// together. The position of a slider is the largest position of its points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyOrder {
     /// One number per point.
@@ -21,35 +20,17 @@ pub struct BodyOrder {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LayoutError {
-    /// A group contains a body that the state does not have.
-    #[error("group {group} contains {body:?}, which the state does not have")]
-    UnknownBody {
-        /// Index of the group.
-        group: usize,
-        /// Body that does not exist.
-        body: Coordinates,
-    },
-    /// A body is in two groups, or twice in one.
-    #[error("{body:?} belongs to group {first} and to group {second}: remove it from one of them")]
+    /// A point is in two sliders, or twice in one.
+    #[error(
+        "point {point} belongs to slider {first} and to slider {second}: remove it from one of them"
+    )]
     TiedTwice {
-        /// The body.
-        body: Coordinates,
-        /// The first group with the body.
+        /// Index of the point.
+        point: usize,
+        /// The first slider with the point.
         first: usize,
         /// The second.
         second: usize,
-    },
-    /// Directions of a group are zero, not finite or linearly dependent.
-    #[error(
-        "the {what} of group {group} must be independent, finite and not zero, but are {directions:?}"
-    )]
-    Directions {
-        /// Index of the group.
-        group: usize,
-        /// `translations` or `rotations`.
-        what: &'static str,
-        /// Directions as given.
-        directions: Vec<Vector3>,
     },
     /// The length of the order differs from the number of bodies.
     #[error("the order has {given} numbers for {bodies} {kind}")]
@@ -71,26 +52,26 @@ pub enum LayoutError {
     },
 }
 
-/// Bodies that share unknowns: a single body or a group.
+/// Bodies that share unknowns: a single body or a slider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Node {
     Point(usize),
     Frame(usize),
-    Group(usize),
+    Slider(usize),
 }
 
 /// Map from unknowns to bodies.
 ///
 /// A free point has three unknowns, its displacement (nm, lab frame). A free frame has three, its
-/// rotation vector `phi` in `Q -> Q exp(phi)` (rad, body frame). A [`Group`] has one per direction.
-/// Held bodies have no unknowns unless a group moves them.
+/// rotation vector `phi` in `Q -> Q exp(phi)` (rad, body frame). A [`Slider`] of the state has one per
+/// direction. Other held bodies have no unknowns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     nodes: Vec<Node>,
     offsets: Vec<usize>,
     point_node: Vec<Option<usize>>,
     frame_node: Vec<Option<usize>>,
-    groups: Vec<Group>,
+    sliders: Vec<Slider>,
     order: Order,
     /// Index of each node in the prescribed order.
     sequence: Vec<usize>,
@@ -120,40 +101,32 @@ pub(crate) enum Order {
 }
 
 impl Layout {
-    /// All free bodies, and the sliding bodies of the state as groups. The order is found by
-    /// minimum degree at the first assembly.
+    /// All free bodies and sliders. The order is found by minimum degree at the first assembly.
     ///
     /// # Panics
-    /// If two sliding bodies of the state share a point, or one has linearly dependent directions.
+    /// If two sliders of the state share a point.
     pub fn free(state: &State) -> Self {
-        Self::new(state, None, Vec::new()).expect("sliding bodies of a state are consistent")
+        Self::new(state, None).expect("sliders of a state are consistent")
     }
 
-    /// Free bodies and groups in the given order, or ordered by minimum degree.
-    ///
-    /// The sliding bodies of the state are appended to the groups.
+    /// Free bodies and sliders in the given order, or ordered by minimum degree.
     ///
     /// # Errors
-    /// If a group or the order does not match the state.
-    pub fn new(
-        state: &State,
-        order: Option<&BodyOrder>,
-        mut groups: Vec<Group>,
-    ) -> Result<Self, LayoutError> {
-        groups.extend(state.sliders.iter().map(Group::from_slider));
-        let ties = Ties::new(state, &groups)?;
-        let groups = with_orthonormal_directions(groups)?;
-        let mut nodes = nodes_of(state, &ties, &groups);
+    /// If the order does not match the state, or sliders share a point.
+    pub fn new(state: &State, order: Option<&BodyOrder>) -> Result<Self, LayoutError> {
+        let sliders = state.sliders.to_vec();
+        let ties = ties(&sliders, state.points.len())?;
+        let mut nodes = nodes_of(state, &ties, sliders.len());
         if let Some(order) = order {
             check_order(state, order)?;
-            nodes.sort_by(|a, b| key(*a, order, &groups).total_cmp(&key(*b, order, &groups)));
+            nodes.sort_by(|a, b| key(*a, order, &sliders).total_cmp(&key(*b, order, &sliders)));
         }
         let mut layout = Self {
             nodes,
             offsets: Vec::new(),
             point_node: vec![None; state.points.len()],
             frame_node: vec![None; state.frames.len()],
-            groups,
+            sliders,
             order: match order {
                 Some(_) => Order::Settled,
                 None => Order::Sought,
@@ -226,12 +199,11 @@ impl Layout {
         self.offsets[self.nodes.len()]
     }
 
-    /// Groups, with orthonormal directions.
-    pub fn groups(&self) -> &[Group] {
-        &self.groups
+    pub(crate) fn sliders(&self) -> &[Slider] {
+        &self.sliders
     }
 
-    /// Unknowns of a body or its group; `None` if it does not move.
+    /// Unknowns of a body or its slider; `None` if it does not move.
     pub fn unknowns_of(&self, body: Coordinates) -> Option<Range<usize>> {
         self.node_of(body).map(|node| self.range(node))
     }
@@ -301,17 +273,11 @@ impl Layout {
                     self.frame_node[i] = Some(k);
                     3
                 }
-                Node::Group(g) => {
-                    let group = &self.groups[g];
-                    group
-                        .points
-                        .iter()
-                        .for_each(|&i| self.point_node[i] = Some(k));
-                    group
-                        .frames
-                        .iter()
-                        .for_each(|&i| self.frame_node[i] = Some(k));
-                    group.unknowns()
+                Node::Slider(s) => {
+                    let slider = &self.sliders[s];
+                    let points = slider.points.iter();
+                    points.for_each(|&i| self.point_node[i] = Some(k));
+                    slider.directions.len()
                 }
             };
             self.offsets.push(unknowns);
@@ -319,83 +285,28 @@ impl Layout {
     }
 }
 
-struct Ties {
-    points: Vec<Option<usize>>,
-    frames: Vec<Option<usize>>,
-}
-
-impl Ties {
-    fn new(state: &State, groups: &[Group]) -> Result<Self, LayoutError> {
-        let mut points = vec![None; state.points.len()];
-        let mut frames = vec![None; state.frames.len()];
-        for (g, group) in groups.iter().enumerate() {
-            for &i in &group.points {
-                tie(&mut points, i, g, Coordinates::Point(i))?;
-            }
-            for &i in &group.frames {
-                tie(&mut frames, i, g, Coordinates::Frame(i))?;
-            }
-            if let crate::Pivot::Point(i) = group.pivot
-                && i >= points.len()
-            {
-                let body = Coordinates::Point(i);
-                return Err(LayoutError::UnknownBody { group: g, body });
+/// Returns the slider of each point, if any.
+fn ties(sliders: &[Slider], points: usize) -> Result<Vec<Option<usize>>, LayoutError> {
+    let mut tied = vec![None; points];
+    for (second, slider) in sliders.iter().enumerate() {
+        for &point in &slider.points {
+            if let Some(first) = tied[point].replace(second) {
+                return Err(LayoutError::TiedTwice {
+                    point,
+                    first,
+                    second,
+                });
             }
         }
-        Ok(Self { points, frames })
     }
+    Ok(tied)
 }
 
-fn tie(
-    ties: &mut [Option<usize>],
-    i: usize,
-    group: usize,
-    body: Coordinates,
-) -> Result<(), LayoutError> {
-    let place = ties
-        .get_mut(i)
-        .ok_or(LayoutError::UnknownBody { group, body })?;
-    if let Some(first) = place.replace(group) {
-        return Err(LayoutError::TiedTwice {
-            body,
-            first,
-            second: group,
-        });
-    }
-    Ok(())
-}
-
-fn with_orthonormal_directions(groups: Vec<Group>) -> Result<Vec<Group>, LayoutError> {
-    groups
-        .into_iter()
-        .enumerate()
-        .map(|(g, group)| orthonormalised(g, group))
-        .collect()
-}
-
-fn orthonormalised(index: usize, mut group: Group) -> Result<Group, LayoutError> {
-    for (what, directions) in [
-        ("translations", &mut group.translations),
-        ("rotations", &mut group.rotations),
-    ] {
-        *directions = orthonormal(directions).ok_or_else(|| LayoutError::Directions {
-            group: index,
-            what,
-            directions: directions.clone(),
-        })?;
-    }
-    Ok(group)
-}
-
-fn nodes_of(state: &State, ties: &Ties, groups: &[Group]) -> Vec<Node> {
-    let points = (0..state.points.len())
-        .filter(|&i| state.points.is_free(i) && ties.points[i].is_none())
-        .map(Node::Point);
-    let frames = (0..state.frames.len())
-        .filter(|&i| state.frames.is_free(i) && ties.frames[i].is_none())
-        .map(Node::Frame);
-    let tied = (0..groups.len()).map(Node::Group);
-    points.chain(frames).chain(tied).collect()
+fn nodes_of(state: &State, ties: &[Option<usize>], sliders: usize) -> Vec<Node> {
+    let points = (0..ties.len()).filter(|&i| state.points.is_free(i) && ties[i].is_none());
+    let frames = (0..state.frames.len()).filter(|&i| state.frames.is_free(i));
+    let single = points.map(Node::Point).chain(frames.map(Node::Frame));
+    single.chain((0..sliders).map(Node::Slider)).collect()
 }
 
 fn check_order(state: &State, order: &BodyOrder) -> Result<(), LayoutError> {
@@ -429,15 +340,14 @@ fn check_order(state: &State, order: &BodyOrder) -> Result<(), LayoutError> {
     )
 }
 
-/// Groups have the position of their last body, so they fill few rows.
-fn key(node: Node, order: &BodyOrder, groups: &[Group]) -> f64 {
+/// Sliders have the position of their last point, so they fill few rows.
+fn key(node: Node, order: &BodyOrder, sliders: &[Slider]) -> f64 {
     match node {
         Node::Point(i) => order.points[i],
         Node::Frame(i) => order.frames[i],
-        Node::Group(g) => {
-            let points = groups[g].points.iter().map(|&i| order.points[i]);
-            let frames = groups[g].frames.iter().map(|&i| order.frames[i]);
-            points.chain(frames).fold(f64::NEG_INFINITY, f64::max)
+        Node::Slider(s) => {
+            let points = sliders[s].points.iter().map(|&i| order.points[i]);
+            points.fold(f64::NEG_INFINITY, f64::max)
         }
     }
 }

@@ -25,7 +25,6 @@ mod direction;
 mod evaluation;
 mod factor;
 mod gradients;
-mod group;
 mod history;
 mod implicit;
 mod layout;
@@ -47,7 +46,6 @@ mod ties;
 
 pub use assemble::MatrixParts;
 pub use certificate::{Certificate, Stability};
-pub use group::{Group, Pivot};
 pub use history::{Iteration, SolverWork, Verdict};
 pub use implicit::{ImplicitSolver, Selection};
 pub use layout::{BodyOrder, Layout, LayoutError};

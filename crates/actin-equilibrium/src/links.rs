@@ -3,7 +3,6 @@
 use crate::layout::Layout;
 use crate::pattern::{BlockPosition, Pattern};
 use actin_mechanics::{Coordinates, Matrix3};
-use nalgebra::Matrix6;
 use std::ops::Range;
 
 pub(crate) type Block = (Coordinates, Coordinates, Matrix3);
@@ -14,7 +13,7 @@ pub(crate) struct LinkBlock {
     pub(crate) nodes: [usize; 2],
     pub(crate) rows: Range<usize>,
     pub(crate) columns: Range<usize>,
-    pub(crate) values: Matrix6<f64>,
+    pub(crate) values: Matrix3,
 }
 
 impl LinkBlock {

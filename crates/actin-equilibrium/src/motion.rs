@@ -1,16 +1,15 @@
 //! Motion of bodies by unknowns, and generalised loads.
 
-use crate::group::Group;
 use crate::layout::{Layout, Node};
 use actin_mechanics::Residual;
-use actin_mechanics::{Loads, State, UnitQuaternion, Vector3, Vectors, rotation};
+use actin_mechanics::{Loads, Slider, State, UnitQuaternion, Vector3, Vectors, rotation};
 
 /// Extent of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepSize {
-    /// Largest displacement of a body or group (nm).
+    /// Largest displacement of a body or slider (nm).
     pub displacement: f64,
-    /// Largest rotation of a body or group (rad).
+    /// Largest rotation of a frame (rad).
     pub rotation: f64,
     /// Largest relative motion of coupled bodies: rotation between two frames (rad), or relative
     /// displacement of two points over their distance.
@@ -68,23 +67,27 @@ impl Layout {
                 let q = state.frames.orientation.get(i) * rotation::exp(three(step) * scale);
                 state.frames.orientation.set(i, with_unit_length(q));
             }
-            Node::Group(g) => move_group(&self.groups()[g], state, step, scale),
+            Node::Slider(s) => {
+                let slider = &self.sliders()[s];
+                let shift = displacement_of(slider, step) * scale;
+                for &i in &slider.points {
+                    state.points.position.add(i, shift);
+                }
+            }
         }
     }
 
     /// Generalised loads: negative derivative of the energy.
-    pub(crate) fn reduce(&self, state: &State, loads: &Loads, reduced: &mut [f64]) {
+    pub(crate) fn reduce(&self, loads: &Loads, reduced: &mut [f64]) {
         for (node, range) in self.nodes() {
             let out = &mut reduced[range];
             match node {
                 Node::Point(i) => out.copy_from_slice(loads.force.get(i).as_slice()),
                 Node::Frame(i) => out.copy_from_slice(loads.torque.get(i).as_slice()),
-                Node::Group(g) => {
-                    let group = &self.groups()[g];
-                    let (force, couple) = resultant(group, state, loads);
-                    let (along, about) = out.split_at_mut(group.translations.len());
-                    project(along, &group.translations, force);
-                    project(about, &group.rotations, couple);
+                Node::Slider(s) => {
+                    let slider = &self.sliders()[s];
+                    let force = slider.points.iter().map(|&i| loads.force.get(i)).sum();
+                    project(out, slider, force);
                 }
             }
         }
@@ -92,7 +95,7 @@ impl Layout {
 
     pub(crate) fn largest(&self, reduced: &[f64]) -> Residual {
         self.nodes()
-            .map(|(node, range)| self.norms(node, &reduced[range]))
+            .map(|(node, range)| norms(node, &reduced[range]))
             .fold(Residual::default(), |largest, of_node| {
                 largest.max(&of_node)
             })
@@ -101,7 +104,7 @@ impl Layout {
     pub(crate) fn total(&self, reduced: &[f64]) -> Residual {
         let norms = self
             .nodes()
-            .map(|(node, range)| self.norms(node, &reduced[range]));
+            .map(|(node, range)| norms(node, &reduced[range]));
         norms.fold(Residual::default(), |total, of_node| Residual {
             force: total.force.hypot(of_node.force),
             torque: total.torque.hypot(of_node.torque),
@@ -116,29 +119,15 @@ impl Layout {
         (rounding, multiple): (&[f64], f64),
     ) -> bool {
         self.nodes().all(|(node, range)| {
-            let floor = self.norms(node, &rounding[range.clone()]).scaled(multiple);
-            let of_node = self.norms(node, &loads[range]);
+            let floor = norms(node, &rounding[range.clone()]).scaled(multiple);
+            let of_node = norms(node, &loads[range]);
             of_node.is_within(&limit.max(&if_finite(&floor)))
         })
     }
 
-    fn norms(&self, node: Node, values: &[f64]) -> Residual {
-        let translations = match node {
-            Node::Point(_) => values.len(),
-            Node::Frame(_) => 0,
-            Node::Group(g) => self.groups()[g].translations.len(),
-        };
-        let (along, about) = values.split_at(translations);
-        Residual {
-            force: norm(along),
-            torque: norm(about),
-        }
-    }
-
-    /// Residual of `state` under `loads`.
-    pub(crate) fn residual(&self, state: &State, loads: &Loads) -> Residual {
+    pub(crate) fn residual(&self, loads: &Loads) -> Residual {
         let mut reduced = vec![0.0; self.unknowns()];
-        self.reduce(state, loads, &mut reduced);
+        self.reduce(loads, &mut reduced);
         self.largest(&reduced)
     }
 
@@ -155,7 +144,7 @@ impl Layout {
     pub(crate) fn extent_of(&self, nodes: &[usize], step: &[f64]) -> StepSize {
         let norms = nodes
             .iter()
-            .map(|&k| self.norms(self.node(k), &step[self.range(k)]));
+            .map(|&k| norms(self.node(k), &step[self.range(k)]));
         let largest = norms.fold(Residual::default(), |largest, one| largest.max(&one));
         StepSize {
             displacement: largest.force,
@@ -188,15 +177,10 @@ impl Layout {
             match self.node(k) {
                 Node::Point(i) => moved.set(i, three(step)),
                 Node::Frame(i) => turned.set(i, state.frames.orientation.get(i) * three(step)),
-                Node::Group(g) => {
-                    let group = &self.groups()[g];
-                    let (shift, turn) = (group.displacement(step), group.rotation(step));
-                    let pivot = group.pivot.position(state);
-                    for &i in &group.points {
-                        let arm = state.points.position.get(i) - pivot;
-                        moved.set(i, shift + turn.cross(&arm));
-                    }
-                    group.frames.iter().for_each(|&i| turned.set(i, turn));
+                Node::Slider(s) => {
+                    let slider = &self.sliders()[s];
+                    let shift = displacement_of(slider, step);
+                    slider.points.iter().for_each(|&i| moved.set(i, shift));
                 }
             }
         }
@@ -204,8 +188,7 @@ impl Layout {
 
     /// Step between two states: inverse of [`apply`](Layout::apply).
     ///
-    /// For a group, only motion along its directions is included; the rotation of the
-    /// group is the rotation of its first frame.
+    /// For a slider, only motion along its directions is included.
     pub fn difference(&self, from: &State, to: &State) -> Vec<f64> {
         let mut step = vec![0.0; self.unknowns()];
         for (node, range) in self.nodes() {
@@ -216,12 +199,9 @@ impl Layout {
                     let q = from.frames.orientation.get(i).inverse() * to.frames.orientation.get(i);
                     out.copy_from_slice(rotation::log(q).as_slice());
                 }
-                Node::Group(g) => {
-                    let group = &self.groups()[g];
-                    let (moved, turned) = group_difference(group, from, to);
-                    let (along, about) = out.split_at_mut(group.translations.len());
-                    project(along, &group.translations, moved);
-                    project(about, &group.rotations, turned);
+                Node::Slider(s) => {
+                    let slider = &self.sliders()[s];
+                    project(out, slider, displacement(from, to, slider.points[0]));
                 }
             }
         }
@@ -237,12 +217,10 @@ impl Layout {
                     out.copy_from_slice(state.points.position.get(i).abs().as_slice());
                 }
                 Node::Frame(_) => out.fill(1.0),
-                Node::Group(g) => {
-                    let group = &self.groups()[g];
-                    let (along, about) = out.split_at_mut(group.translations.len());
-                    let largest = largest_component(&state.points.position, &group.points);
-                    along.fill(largest);
-                    about.fill(1.0);
+                Node::Slider(s) => {
+                    let points = self.sliders()[s].points.iter();
+                    let largest = points.map(|&i| state.points.position.get(i).amax());
+                    out.fill(largest.fold(0.0, f64::max));
                 }
             }
         }
@@ -251,15 +229,23 @@ impl Layout {
     /// 1 for displacements, `length^2` for rotations.
     pub(crate) fn metric(&self, length: f64, metric: &mut [f64]) {
         for (node, range) in self.nodes() {
-            let translations = match node {
-                Node::Point(_) => 3,
-                Node::Frame(_) => 0,
-                Node::Group(g) => self.groups()[g].translations.len(),
-            };
-            let (along, about) = metric[range].split_at_mut(translations);
-            along.fill(1.0);
-            about.fill(length * length);
+            let is_frame = matches!(node, Node::Frame(_));
+            metric[range].fill(if is_frame { length * length } else { 1.0 });
         }
+    }
+}
+
+fn norms(node: Node, values: &[f64]) -> Residual {
+    let norm = values.iter().map(|v| v * v).sum::<f64>().sqrt();
+    match node {
+        Node::Frame(_) => Residual {
+            force: 0.0,
+            torque: norm,
+        },
+        Node::Point(_) | Node::Slider(_) => Residual {
+            force: norm,
+            torque: 0.0,
+        },
     }
 }
 
@@ -267,12 +253,13 @@ fn three(step: &[f64]) -> Vector3 {
     Vector3::new(step[0], step[1], step[2])
 }
 
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|v| v * v).sum::<f64>().sqrt()
+fn displacement_of(slider: &Slider, step: &[f64]) -> Vector3 {
+    let directions = slider.directions.iter().zip(step);
+    directions.map(|(d, amount)| d * *amount).sum()
 }
 
-fn project(out: &mut [f64], directions: &[Vector3], v: Vector3) {
-    for (out, direction) in out.iter_mut().zip(directions) {
+fn project(out: &mut [f64], slider: &Slider, v: Vector3) {
+    for (out, direction) in out.iter_mut().zip(&slider.directions) {
         *out = direction.dot(&v);
     }
 }
@@ -282,62 +269,8 @@ fn with_unit_length(q: UnitQuaternion) -> UnitQuaternion {
     UnitQuaternion::new_normalize(q.into_inner())
 }
 
-fn move_group(group: &Group, state: &mut State, step: &[f64], scale: f64) {
-    let shift = group.displacement(step) * scale;
-    let turn = rotation::exp(group.rotation(step) * scale);
-    let pivot = group.pivot.position(state);
-    let turns = !group.rotations.is_empty();
-    for &i in &group.points {
-        let x = state.points.position.get(i);
-        let moved = if turns { pivot + turn * (x - pivot) } else { x };
-        state.points.position.set(i, moved + shift);
-    }
-    if turns {
-        for &i in &group.frames {
-            let q = turn * state.frames.orientation.get(i);
-            state.frames.orientation.set(i, with_unit_length(q));
-        }
-    }
-}
-
-/// Force and torque about the pivot (lab frame).
-fn resultant(group: &Group, state: &State, loads: &Loads) -> (Vector3, Vector3) {
-    let pivot = group.pivot.position(state);
-    let mut force = Vector3::zeros();
-    let mut couple = Vector3::zeros();
-    for &i in &group.points {
-        let f = loads.force.get(i);
-        force += f;
-        couple += (state.points.position.get(i) - pivot).cross(&f);
-    }
-    for &i in &group.frames {
-        couple += state.frames.orientation.get(i) * loads.torque.get(i);
-    }
-    (force, couple)
-}
-
 fn displacement(from: &State, to: &State, i: usize) -> Vector3 {
     to.points.position.get(i) - from.points.position.get(i)
-}
-
-/// Displacement of the material point at the pivot, and rotation.
-fn group_difference(group: &Group, from: &State, to: &State) -> (Vector3, Vector3) {
-    let turned = group.frames.first().map_or(Vector3::zeros(), |&i| {
-        rotation::log(to.frames.orientation.get(i) * from.frames.orientation.get(i).inverse())
-    });
-    let moved = group.points.first().map_or(Vector3::zeros(), |&i| {
-        let pivot = group.pivot.position(from);
-        let x = from.points.position.get(i);
-        to.points.position.get(i) - (pivot + rotation::exp(turned) * (x - pivot))
-    });
-    (moved, turned)
-}
-
-fn largest_component(positions: &Vectors, points: &[usize]) -> f64 {
-    points
-        .iter()
-        .map(|&i| positions.get(i).amax())
-        .fold(0.0, f64::max)
 }
 
 fn if_finite(residual: &Residual) -> Residual {

@@ -207,7 +207,7 @@ impl Newton {
             interaction.add_loads(state, &mut loads);
         }
         let mut reduced = vec![0.0; self.layout().unknowns()];
-        self.layout().reduce(state, &loads, &mut reduced);
+        self.layout().reduce(&loads, &mut reduced);
         reduced
     }
 

@@ -103,7 +103,7 @@ impl Path {
     /// Follows the equilibria of `state` from parameter 0 to 1.
     ///
     /// `set` sets controls and held bodies for a parameter. It receives a state near the last
-    /// equilibrium and must not move free bodies or free components of groups. `observe` receives
+    /// equilibrium and must not move free bodies or free components of sliders. `observe` receives
     /// every equilibrium and may interrupt the path.
     ///
     /// # Errors

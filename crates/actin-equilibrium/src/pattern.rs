@@ -248,10 +248,10 @@ fn place(
     let (row, column) = (first.min(second), first.max(second));
     let start = layout.range(column).start;
     let values = |local: usize| std::array::from_fn(|j| columns[start + j] + local);
-    let is_group = |node| matches!(layout.node(node), Node::Group(_));
+    let is_slider = |node| matches!(layout.node(node), Node::Slider(_));
     if first == second {
         let local = starts[column][starts[column].len() - 1];
-        return Some(if is_group(first) {
+        return Some(if is_slider(first) {
             let twice = a != b;
             BlockPosition::Diagonal { node: first, twice }
         } else {
@@ -261,7 +261,7 @@ fn place(
     }
     let at = neighbours[column].binary_search(&row).ok()?;
     let (local, transposed) = (starts[column][at], first > second);
-    if is_group(row) || is_group(column) {
+    if is_slider(row) || is_slider(column) {
         return Some(BlockPosition::Above {
             row,
             column,

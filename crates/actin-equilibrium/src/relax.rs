@@ -39,7 +39,7 @@ pub enum EquilibriumError {
 /// Moves the free bodies of `state` to a nearby stable equilibrium of `interactions`.
 ///
 /// Equivalent to [`Newton::minimize`] with default options on all free bodies. Use [`Newton`]
-/// directly to set tolerances, order or groups, and for repeated solves of one model.
+/// directly to set tolerances or the order, and for repeated solves of one model.
 ///
 /// # Errors
 /// If no stable equilibrium is found; `state` is then the best state reached.

@@ -45,7 +45,7 @@ fn newton_iteration(criterion: &mut Criterion) {
             frames: assembly.frames.iter().map(|f| f.s_nm).collect(),
         };
         let (state, terms) = (assembly.system.state(), assembly.system.interactions());
-        let layout = Layout::new(state, Some(&order), Vec::new()).expect("it fits the state");
+        let layout = Layout::new(state, Some(&order)).expect("it fits the state");
         let ones = vec![1.0; layout.unknowns()];
         let mut newton = Newton::new(layout, NewtonOptions::default()).expect("by default valid");
         group.bench_function(BenchmarkId::new("assembly", name), |bencher| {

@@ -27,7 +27,7 @@ fn main() {
         for count in COUNTS {
             let assembly = bundle(count, sections);
             let state = assembly.system.state();
-            let layout = |apart| Layout::new(state, Some(&order(&assembly, apart)), Vec::new());
+            let layout = |apart| Layout::new(state, Some(&order(&assembly, apart)));
             let layout = |apart| layout(apart).expect("one number for each body");
             let layouts = [layout(1e3), layout(0.0), layout(1e3).with_links()];
             let unknowns = layouts[0].unknowns();

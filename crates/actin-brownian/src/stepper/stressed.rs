@@ -71,8 +71,7 @@ impl Brownian {
         self.find_residual(system, h);
         let components = &self.components;
         let is_selected = |c| components.has_component(c);
-        let at = (system.state(), &self.residual);
-        let decreases = self.solver.predicted_decreases(at, is_selected);
+        let decreases = self.solver.predicted_decreases(&self.residual, is_selected);
         self.progress
             .reopen(&decreases, is_selected, self.thermal_energy)
     }
@@ -179,13 +178,12 @@ impl Brownian {
                 friction,
                 progress: &self.progress,
             };
-            let at = (state, &self.loads);
             let solver = &mut self.solver;
             let is_positive = match &changed {
-                None => solver.factorize_parts(at, &matrix, components.selection()),
-                Some(changed) => solver.refactorize_parts(at, &matrix, changed.selection()),
+                None => solver.factorize_parts(state, &matrix, components.selection()),
+                Some(changed) => solver.refactorize_parts(state, &matrix, changed.selection()),
             };
-            if is_positive && solver.find_step(state, &self.residual) {
+            if is_positive && solver.find_step(&self.residual) {
                 return true;
             }
             let worst = if is_positive {
@@ -195,7 +193,7 @@ impl Brownian {
             };
             let balanced = self.stresses.balance_more(interactions, components, &worst);
             if balanced.is_empty() {
-                return solver.find_step(state, &self.residual);
+                return solver.find_step(&self.residual);
             }
             changed = Some(components.coupled_by(&balanced));
         }

@@ -37,8 +37,8 @@ impl Clusters {
             let body = match layout.node(k) {
                 Node::Point(i) => Coordinates::Point(i),
                 Node::Frame(i) => Coordinates::Frame(i),
-                Node::Group(_) => {
-                    clusters.push(Cluster::of_group(k));
+                Node::Slider(_) => {
+                    clusters.push(Cluster::of_slider(k));
                     continue;
                 }
             };
@@ -191,13 +191,13 @@ impl Layout {
             Node::Frame(i) if spins.get(i).is_some_and(Option::is_some) => {
                 Some((i, self.range(k).start + 2))
             }
-            Node::Frame(_) | Node::Point(_) | Node::Group(_) => None,
+            Node::Frame(_) | Node::Point(_) | Node::Slider(_) => None,
         })
     }
 }
 
 impl Cluster {
-    fn of_group(node: usize) -> Self {
+    fn of_slider(node: usize) -> Self {
         Self {
             nodes: vec![node],
             holds: 2,

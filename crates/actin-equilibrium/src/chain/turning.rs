@@ -19,8 +19,8 @@ use actin_mechanics::Coordinates::{Frame, Point};
 use actin_mechanics::{Loads, Matrix3, State, Stiffness, Vectors};
 
 impl Chain {
-    /// Adds minus `loads` times the second derivatives of positions and rotations. Bodies of groups
-    /// must not carry others.
+    /// Adds minus `loads` times the second derivatives of positions and rotations. Points of
+    /// sliders must not carry other bodies.
     pub(crate) fn add_turning(&self, state: &State, loads: &Loads, blocks: &mut Stiffness) {
         let mut force = loads.force.clone();
         let frames = 0..state.frames.len();

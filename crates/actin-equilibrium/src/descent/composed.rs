@@ -53,7 +53,7 @@ impl ComposedSteps {
         let is_floppy = solver.floppy() as f64 >= FLOPPY * bodies as f64;
         let is_used = bodies >= FEWEST
             && (is_floppy || self.is_wanted)
-            && solver.layout.groups().is_empty()
+            && solver.layout.sliders().is_empty()
             && is_open(&solver.layout, solver.assembly.ties());
         self.is_used = Some(is_used);
         is_used

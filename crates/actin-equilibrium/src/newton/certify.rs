@@ -162,7 +162,7 @@ fn polish(
     solver.layout.apply(&mut polished, &step, 1.0);
     let evaluation = Evaluation::new(interactions, &polished);
     solver.work.evaluations += 1;
-    let after = solver.layout.residual(&polished, &evaluation.loads);
+    let after = solver.layout.residual(&evaluation.loads);
     if !(evaluation.is_finite() && after.is_within(&residual.max(&floor))) {
         return None;
     }
@@ -186,12 +186,10 @@ fn change(
     }
     let mut moved = state.clone();
     solver.layout.apply(&mut moved, &step, 1.0);
-    let evaluation = Evaluation::new(interactions, &moved);
-    solver.work.evaluations += 1;
     solver.work.assemblies += 1;
     let before = solver.assembly.values.clone();
     let (assembly, layout) = (&mut solver.assembly, &mut solver.layout);
-    assembly.update(interactions, &moved, &evaluation.loads, layout);
+    assembly.update(interactions, &moved, layout);
     let changes = assembly.values.iter().zip(&before).map(|(a, b)| a - b);
     let changes = changes.collect();
     assembly.values = before;

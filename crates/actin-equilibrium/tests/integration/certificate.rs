@@ -61,7 +61,7 @@ fn bodies(points: usize, frames: usize) -> State {
 fn stability(state: &State, terms: &Terms) -> Stability {
     let [given, own] = [true, false].map(|is_given| {
         let order = is_given.then(|| in_order(state));
-        let layout = Layout::new(state, order.as_ref(), vec![]).unwrap();
+        let layout = Layout::new(state, order.as_ref()).unwrap();
         let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
         let mut state = state.clone();
         let found = newton.solve(&mut state, terms).unwrap();

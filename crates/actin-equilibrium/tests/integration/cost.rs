@@ -57,7 +57,7 @@ fn floppy(monomers: usize) -> (u64, u64) {
     let shares = vec![(monomers - 1, 0.5), (monomers - 2, 0.5)];
     let load = PointLoad::new(&state, shares, Vector3::x(), control).unwrap();
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(bonds), Box::new(load)];
-    let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
+    let layout = Layout::new(&state, Some(&in_order(&state))).unwrap();
     let tolerance = Residual {
         force: 1e-6,
         torque: 1e-6,

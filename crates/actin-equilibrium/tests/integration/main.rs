@@ -3,11 +3,11 @@
 mod certificate;
 mod common;
 mod cost;
-mod groups;
 mod newton;
 mod path;
 mod relax;
 mod saddle;
 mod search;
+mod sliders;
 mod stiffness;
 mod tension;

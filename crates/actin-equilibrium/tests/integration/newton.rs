@@ -75,7 +75,7 @@ fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
     let shares = vec![(n - 1, 0.5), (n - 2, 0.5)];
     let load = PointLoad::new(&state, shares, Vector3::x(), control).unwrap();
     let terms: Terms = vec![Box::new(bonds), Box::new(load)];
-    let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
+    let layout = Layout::new(&state, Some(&in_order(&state))).unwrap();
     let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
     let before = state.clone();
     let rest = newton.solve(&mut state, &terms).unwrap();
@@ -192,7 +192,7 @@ fn rounding_of_one_body_does_not_stop_another() {
     let load = PointLoad::new(&state, vec![(1, 1.0)], -Vector3::z(), control).unwrap();
     let springs = springs(&state, vec![(0, 1, 1e-3, 1.0), (2, 3, 0.1, 1.0)]);
     let terms: Terms = vec![springs, Box::new(load)];
-    let layout = Layout::new(&state, Some(&in_order(&state)), Vec::new()).unwrap();
+    let layout = Layout::new(&state, Some(&in_order(&state))).unwrap();
     let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
     let found = newton.solve(&mut state, &terms).unwrap();
     assert!(found.floor.force > 1e-5, "{:?}", found.floor);
@@ -336,7 +336,7 @@ fn stiffness_without_scale_is_refused() {
             let both = vec![(0, 1, stiffness, 1.0), (1, 2, stiffness, 1.0)];
             terms.push(springs(&state, both));
         }
-        let layout = Layout::new(&state, Some(&in_order(&state)), Vec::new()).unwrap();
+        let layout = Layout::new(&state, Some(&in_order(&state))).unwrap();
         let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
         let result = newton.solve(&mut state, &terms);
         assert!(newton.work().iterations <= 300, "{stiffness:e}");
@@ -360,7 +360,7 @@ fn long_floppy_filaments_hardly_overshoot() {
     let shares = vec![(n - 1, 0.5), (n - 2, 0.5)];
     let load = PointLoad::new(&state, shares, Vector3::x(), control).unwrap();
     let terms: Terms = vec![Box::new(bonds), Box::new(load)];
-    let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
+    let layout = Layout::new(&state, Some(&in_order(&state))).unwrap();
     let options = NewtonOptions {
         tolerance: Residual {
             force: 1e-6,

@@ -2,11 +2,11 @@
 
 use crate::common;
 use actin_equilibrium::{
-    Group, Jumps, Layout, Newton, NewtonOptions, Path, PathEnd, PathError, PathFailure,
-    PathOptions, PathPoint, Saddles,
+    Jumps, Layout, Newton, NewtonOptions, Path, PathEnd, PathError, PathFailure, PathOptions,
+    PathPoint, Saddles,
 };
 use actin_mechanics::{Interaction, PointLoad, State, Vector3, rotation};
-use common::{ACTIN, Rod, point, springs};
+use common::{ACTIN, Rod, point, push_slider, springs};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
@@ -26,9 +26,8 @@ fn arch(rise: f64, force: f64) -> (State, Terms, Newton) {
     let rest = rise.hypot(10.0);
     let springs = springs(&state, vec![(0, 2, 50.0, rest), (1, 2, 50.0, rest)]);
     let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::y() * -force, control).unwrap();
-    let top = Group::sliding(vec![2], vec![], Vector3::y());
-    let layout = Layout::new(&state, None, vec![top]).unwrap();
-    let newton = Newton::new(layout, NewtonOptions::default()).unwrap();
+    push_slider(&mut state, vec![2], vec![Vector3::y()]);
+    let newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
     (state, vec![springs, Box::new(load)], newton)
 }
 

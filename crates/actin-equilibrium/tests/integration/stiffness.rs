@@ -1,10 +1,10 @@
 //! Assembled stiffness.
 
 use crate::common;
-use actin_equilibrium::{Group, Layout, Pivot};
-use actin_mechanics::{Interaction, PointLoad, Vector3};
+use actin_equilibrium::Layout;
+use actin_mechanics::{Interaction, Vector3};
 use actin_mechanics::{Xorshift, perturb};
-use common::{ACTIN, Rod, assert_is_second_derivative, filament, in_order};
+use common::{ACTIN, Rod, assert_is_second_derivative, filament, in_order, push_slider};
 
 fn bent_rod() -> (actin_mechanics::State, Vec<Box<dyn Interaction>>) {
     let rod = Rod {
@@ -27,38 +27,16 @@ fn stiffness_is_the_derivative_of_the_loads_with_and_without_a_given_order() {
     };
     assert_is_second_derivative(&interactions, &state, Layout::free(&state), 1e-8);
     assert_is_second_derivative(&interactions, &state, rod.layout(&state), 1e-8);
-    let (mut state, bonds) = filament(5, 4, 2);
-    perturb(&mut state, &mut Xorshift::new(2), 0.2, 0.1);
-    let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
-    assert_is_second_derivative(&[Box::new(bonds)], &state, layout, 1e-8);
-}
-
-/// The second order term of a rotation equals the moment of the load.
-#[test]
-fn stiffness_of_groups_includes_the_second_order_of_their_turn() {
     let (mut state, bonds) = filament(6, 4, 2);
-    perturb(&mut state, &mut Xorshift::new(4), 0.2, 0.1);
-    let control = state.add_control(1.0);
-    let load = PointLoad::new(
-        &state,
-        vec![(5, 1.0)],
-        Vector3::new(300.0, 20.0, -100.0),
-        control,
-    )
-    .unwrap();
-    let interactions: Vec<Box<dyn Interaction>> = vec![Box::new(bonds), Box::new(load)];
-    let ends = Group::rigid(vec![4, 5], vec![4, 5]);
-    let inner = Group {
-        points: vec![2, 3],
-        frames: vec![2],
-        pivot: Pivot::Point(3),
-        translations: vec![Vector3::new(1.0, 1.0, 0.0)],
-        rotations: vec![Vector3::new(0.0, 1.0, 0.3), Vector3::x()],
-    };
-    let groups = vec![ends, inner];
+    perturb(&mut state, &mut Xorshift::new(2), 0.2, 0.1);
+    let interactions: Vec<Box<dyn Interaction>> = vec![Box::new(bonds)];
+    let layout = Layout::new(&state, Some(&in_order(&state))).unwrap();
+    assert_is_second_derivative(&interactions, &state, layout, 1e-8);
+    let directions = vec![Vector3::new(0.6, 0.8, 0.0), Vector3::z()];
+    push_slider(&mut state, vec![3, 5], directions);
     for order in [None, Some(in_order(&state))] {
-        let layout = Layout::new(&state, order.as_ref(), groups.clone()).unwrap();
-        assert_eq!(layout.unknowns(), 6 + 3 + 3, "two groups and frame 3");
+        let layout = Layout::new(&state, order.as_ref()).unwrap();
+        assert_eq!(layout.unknowns(), 2 * 3 + 4 * 3 + 2);
         assert_is_second_derivative(&interactions, &state, layout, 1e-8);
     }
 }

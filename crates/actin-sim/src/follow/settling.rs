@@ -108,7 +108,7 @@ impl Transfer<'_> {
             (Some(_), true) => (step, f64::max(TIME_NS, STRESSED_STEPS * step)),
             (Some(_), false) => (step, f64::max(TIME_NS, MIDPOINT_STEPS * step)),
         };
-        let layout = Layout::new(system.state(), Some(&order(self.to)), Vec::new())?;
+        let layout = Layout::new(system.state(), Some(&order(self.to)))?;
         let mut stepper = estimate.stepper((self.to, &own), system, layout)?;
         let run = Run::from_duration(&POSITION_VERLET, step, time)?;
         run.execute_steps(&mut stepper, system, &mut [])?;

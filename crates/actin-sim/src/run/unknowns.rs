@@ -47,8 +47,8 @@ pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneP
 }
 
 pub(crate) fn layout(assembly: &Assembly) -> Result<Layout, SceneProblem> {
-    let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())
-        .map_err(problem_at("filament"))?;
+    let layout =
+        Layout::new(&assembly.rest, Some(&order(assembly))).map_err(problem_at("filament"))?;
     let is_between_sites = |linker: &Linker| matches!(linker.end(), LinkerEnd::Site(_));
     let has_links = assembly.repelled.is_some() || assembly.linkers.iter().any(is_between_sites);
     Ok(if has_links {

@@ -44,7 +44,7 @@ pub(crate) fn layout_of(state: &State, rod: &RodLayout) -> Layout {
         points: (0..state.points.len()).map(point).collect(),
         frames: (0..state.frames.len()).map(frame).collect(),
     };
-    Layout::new(state, Some(&order), Vec::new()).unwrap()
+    Layout::new(state, Some(&order)).unwrap()
 }
 
 pub(crate) fn law(rod: &RodLayout) -> Box<dyn Interaction> {

@@ -123,7 +123,7 @@ fn chain(held: bool) -> (State, Vec<Box<dyn Interaction>>, Layout) {
         points: along.clone(),
         frames: along,
     };
-    let layout = Layout::new(&state, Some(&order), Vec::new()).unwrap();
+    let layout = Layout::new(&state, Some(&order)).unwrap();
     (state, terms, layout)
 }
 
@@ -133,8 +133,8 @@ fn stiffness_is_the_second_derivative_along_carried_steps() {
         let (state, terms, mut layout) = chain(held);
         let here = Evaluation::new(&terms, &state);
         let [mut plain, mut turned] = [Assembly::new(1.0), Assembly::new(1.0)];
-        plain.update(&terms, &state, &here.loads, &mut layout);
-        turned.update(&terms, &state, &here.loads, &mut layout);
+        plain.update(&terms, &state, &mut layout);
+        turned.update(&terms, &state, &mut layout);
         turned.add_turning(&state, &here.loads, &layout);
         let mut noise = Xorshift::new(3);
         for _ in 0..10 {
@@ -169,7 +169,7 @@ fn stiffness_is_the_second_derivative_along_carried_steps() {
 fn a_chain_held_at_one_end_is_open() {
     let seen = |layout: &mut Layout, state: &State, terms: &[Box<dyn Interaction>]| {
         let mut assembly = Assembly::new(1.0);
-        assembly.update(terms, state, &Loads::zeros(state), layout);
+        assembly.update(terms, state, layout);
         crate::chain::is_open(layout, assembly.ties())
     };
     for held in [true, false] {
@@ -178,7 +178,7 @@ fn a_chain_held_at_one_end_is_open() {
         let mut across = layout.clone().with_links();
         assert!(!seen(&mut across, &state, &terms));
         state.points.hold(6);
-        let mut other_end = Layout::new(&state, None, Vec::new()).unwrap();
+        let mut other_end = Layout::new(&state, None).unwrap();
         assert_eq!(seen(&mut other_end, &state, &terms), !held);
     }
 }

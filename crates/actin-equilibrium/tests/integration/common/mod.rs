@@ -8,7 +8,9 @@ pub(crate) use rod::{ACTIN, COLUMN, Rod};
 use actin_ellipsoid::{Bonds, EllipsoidModel, EllipsoidParameters, Placement};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
 use actin_mechanics::testing::{push_frame, push_point};
-use actin_mechanics::{Interaction, Point, Spring, Springs, State, UnitQuaternion, Vector3};
+use actin_mechanics::{
+    Interaction, Point, Slider, Spring, Springs, State, UnitQuaternion, Vector3,
+};
 
 /// `n` monomers along z, the first two held, with `bonds` sampled bonds per interface.
 pub(crate) fn filament(n: usize, bonds: usize, seed: u64) -> (State, Bonds) {
@@ -52,6 +54,18 @@ pub(crate) fn point(state: &mut State, position: Vector3) -> usize {
 
 pub(crate) fn frame(state: &mut State, orientation: UnitQuaternion) -> usize {
     push_frame(state, orientation, [1.0, 1.0, 2.0])
+}
+
+/// Holds `points` and lets them slide together along `directions`.
+pub(crate) fn push_slider(state: &mut State, points: Vec<usize>, directions: Vec<Vector3>) {
+    for &i in &points {
+        state.points.hold(i);
+    }
+    state.sliders.push(Slider {
+        points,
+        directions,
+        mass: 1.0,
+    });
 }
 
 pub(crate) fn in_order(state: &State) -> BodyOrder {

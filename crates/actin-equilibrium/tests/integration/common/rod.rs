@@ -75,7 +75,7 @@ impl Rod {
     }
 
     pub(crate) fn layout(&self, state: &State) -> Layout {
-        Layout::new(state, Some(&self.order()), Vec::new()).unwrap()
+        Layout::new(state, Some(&self.order())).unwrap()
     }
 
     pub(crate) fn newton(&self, state: &State) -> Newton {
