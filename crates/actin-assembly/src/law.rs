@@ -6,9 +6,8 @@ use crate::scene::{
     Section, fitted_laws,
 };
 use actin_cosserat::{
-    EndShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance, RodKey, RodLayout,
-    RodMaterial, RodParameterError, SegmentCurvature, SegmentLaw, TanhTwist, TwistLaw,
-    TwistStretch, constants,
+    EndShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance, RodLayout, RodMaterial,
+    RodParameterError, SegmentCurvature, SegmentLaw, TanhTwist, TwistLaw, TwistStretch, constants,
 };
 use actin_mechanics::Interaction;
 
@@ -191,48 +190,9 @@ fn check_beside_law(rod: &RodModel) -> Result<(), SceneProblem> {
 
 fn refused(part: &'static str) -> impl Fn(RodParameterError) -> SceneProblem {
     move |error| {
-        let key = format!("filament.rod.{part}.{}", written(error.key));
+        let key = format!("filament.rod.{part}.{}", error.key);
         let value = format!("{:?}", error.value);
         SceneProblem::new(key, value, format!("must be {}", error.rule))
-    }
-}
-
-/// Key of a law's parameter in a scene, with its unit. Rigidities and cross-sections have separate
-/// keys.
-fn written(parameter: RodKey) -> &'static str {
-    match parameter {
-        RodKey::Rest => "rest_pn_nm2",
-        RodKey::Rise => "rise_pn_nm2",
-        RodKey::BPlus => "b_plus_pn_nm2",
-        RodKey::BMinus => "b_minus_pn_nm2",
-        RodKey::Curvature => "curvature_per_nm",
-        RodKey::Twist => "twist_per_nm",
-        RodKey::Shear => "shear",
-        RodKey::Half => "half_per_nm",
-        RodKey::Slow => "slow_per_nm",
-        RodKey::Range => "range_per_nm",
-        RodKey::Lambda => "lambda",
-        RodKey::Lambda2 => "lambda[1]",
-        RodKey::Lambda5 => "lambda[4]",
-        RodKey::Lambda7 => "lambda[6]",
-        RodKey::EndSlope => "slope of the couple at the end of the range",
-        RodKey::Coefficient => "coefficients",
-        RodKey::S1 | RodKey::S2 => "linear_pn",
-        RodKey::CubicShear => "cubic_pn",
-        RodKey::S3 => "rigidity_pn",
-        RodKey::B1 | RodKey::B2 | RodKey::B3 => "bend_pn_nm2",
-        RodKey::Tension => "tension_pn",
-        RodKey::Compression => "compression_pn",
-        RodKey::Width => "width",
-        RodKey::Slope => "slope_nm",
-        RodKey::Bend => "bend_nm",
-        RodKey::Cubic => "cubic_nm3",
-        RodKey::Factor => "factor",
-        RodKey::RestCurvature => "rest_curvature_per_nm",
-        RodKey::LinearDensity => "linear_density",
-        RodKey::Area => "area",
-        RodKey::SegmentLength => "segments",
-        RodKey::Temperature => "temperature_k",
     }
 }
 

@@ -3,8 +3,7 @@
 use crate::scene::{End, Hold, Monomers, SceneProblem};
 use actin_cosserat::{RodClamp, RodEnd};
 use actin_ellipsoid::{
-    EllipsoidKey, EllipsoidModel, EllipsoidParameterError, EllipsoidParameters, InterfaceError,
-    InterfaceKey, InterfaceKind,
+    EllipsoidModel, EllipsoidParameterError, EllipsoidParameters, InterfaceError, InterfaceKind,
 };
 
 /// The monomers' model of filament `index`, whose bonds are sampled independently of those of
@@ -17,40 +16,16 @@ pub fn ellipsoids(monomers: &Monomers, index: usize) -> Result<EllipsoidModel, S
         sampling: index as u64,
         ..monomers.into()
     };
-    EllipsoidModel::new(parameters).map_err(|error| match error {
-        EllipsoidParameterError::OutOfRange { key, value, rule } => {
-            SceneProblem::new(scene_key(key), value, format!("must be {rule}"))
-        }
+    EllipsoidModel::new(parameters).map_err(|error| match &error {
         EllipsoidParameterError::NotATop { semi_axes, reason } => SceneProblem::new(
-            scene_key(EllipsoidKey::SemiAxes),
+            "filament.monomers.semi_axes_nm",
             format!("{semi_axes:?}"),
             reason.to_string(),
         ),
+        EllipsoidParameterError::OutOfRange { .. } => {
+            SceneProblem::new("filament.monomers", "", error.to_string())
+        }
     })
-}
-
-fn scene_key(parameter: EllipsoidKey) -> String {
-    let key = match parameter {
-        EllipsoidKey::Radius => "radius_nm",
-        EllipsoidKey::Rise => "rise_nm",
-        EllipsoidKey::Turn => "turn_deg",
-        EllipsoidKey::Azimuth => "azimuth_deg",
-        EllipsoidKey::SemiAxes => "semi_axes_nm",
-        EllipsoidKey::Mass => "mass_ag",
-        EllipsoidKey::Interface(InterfaceKind::Lateral, key) => match key {
-            InterfaceKey::Rigidity => "lateral_rigidity_pn_per_nm",
-            InterfaceKey::Bonds => "lateral_bonds",
-            InterfaceKey::MinimumLength => "min_bond_nm",
-            InterfaceKey::MaximumLength => "lateral_max_bond_nm",
-        },
-        EllipsoidKey::Interface(InterfaceKind::Longitudinal, key) => match key {
-            InterfaceKey::Rigidity => "longitudinal_rigidity_pn_per_nm",
-            InterfaceKey::Bonds => "longitudinal_bonds",
-            InterfaceKey::MinimumLength => "min_bond_nm",
-            InterfaceKey::MaximumLength => "longitudinal_max_bond_nm",
-        },
-    };
-    format!("filament.monomers.{key}")
 }
 
 pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> SceneProblem {

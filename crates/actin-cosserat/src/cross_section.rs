@@ -1,6 +1,6 @@
 //! Cross-section of a rod and inertia of its segments.
 
-use crate::{RodKey, RodParameterError, constants};
+use crate::{RodParameterError, constants};
 use actin_mechanics::{Axis, Inertia};
 use std::f64::consts::PI;
 
@@ -17,8 +17,8 @@ impl CrossSection {
     /// # Errors
     /// If a number is not positive and finite.
     pub fn new(linear_density: f64, area: f64) -> Result<Self, RodParameterError> {
-        RodParameterError::unless_positive(RodKey::LinearDensity, linear_density)?;
-        RodParameterError::unless_positive(RodKey::Area, area)?;
+        RodParameterError::unless_positive("linear_density", linear_density)?;
+        RodParameterError::unless_positive("area", area)?;
         Ok(Self {
             linear_density,
             area,
@@ -82,9 +82,9 @@ mod tests {
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert_eq!(
                 CrossSection::new(bad, 1.0).unwrap_err().key,
-                RodKey::LinearDensity
+                "linear_density"
             );
-            assert_eq!(CrossSection::new(1.0, bad).unwrap_err().key, RodKey::Area);
+            assert_eq!(CrossSection::new(1.0, bad).unwrap_err().key, "area");
         }
     }
 }

@@ -1,14 +1,14 @@
 //! Errors of parameters and rods.
 
-use crate::{RodEnd, RodKey};
+use crate::RodEnd;
 use thiserror::Error;
 
 /// A parameter out of range.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{key} = {value}: must be {rule}")]
 pub struct RodParameterError {
-    /// Parameter.
-    pub key: RodKey,
+    /// Parameter, with its unit, as in scenes.
+    pub key: &'static str,
     /// Rejected value.
     pub value: f64,
     /// Rule that the value violates.
@@ -104,7 +104,7 @@ impl RodParameterError {
     ///
     /// # Errors
     /// If `value` is zero, negative, infinite or NaN.
-    pub(crate) fn unless_positive(key: RodKey, value: f64) -> Result<(), Self> {
+    pub(crate) fn unless_positive(key: &'static str, value: f64) -> Result<(), Self> {
         if value.is_finite() && value > 0.0 {
             Ok(())
         } else {
@@ -117,7 +117,7 @@ impl RodParameterError {
     ///
     /// # Errors
     /// If `value` is infinite or NaN.
-    pub(crate) fn check_finite(key: RodKey, value: f64) -> Result<(), Self> {
+    pub(crate) fn check_finite(key: &'static str, value: f64) -> Result<(), Self> {
         if value.is_finite() {
             Ok(())
         } else {

@@ -27,7 +27,6 @@ mod error;
 mod extended;
 mod fast;
 mod homogenised;
-mod key;
 mod law;
 mod layout;
 mod material;
@@ -48,7 +47,6 @@ pub use energy_gradient::EnergyGradient;
 pub use error::{RodError, RodParameterError};
 pub use extended::{EndShear, JoinedElement, SegmentCurvature, SegmentLaw, TwistStability};
 pub use homogenised::{Homogenised, HomogenisedForm, PotentialJet, StrainRange, Term};
-pub use key::RodKey;
 pub use law::{
     BendLaw, CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw,
     TanhTwist, TwistLaw, TwistRise, TwistStretch,

@@ -2,8 +2,8 @@
 
 use crate::homogenised::STRAIGHT;
 use crate::{
-    BendLaw, CubicShear, Homogenised, Rigidities, RigidityFactors, RodKey, RodParameterError,
-    StrainLaws, StretchLaw, TwistLaw,
+    BendLaw, CubicShear, Homogenised, Rigidities, RigidityFactors, RodParameterError, StrainLaws,
+    StretchLaw, TwistLaw,
 };
 use actin_mechanics::{Matrix3, Vector3};
 
@@ -55,7 +55,7 @@ impl RodMaterial {
     /// If a component is not finite.
     pub fn with_rest_curvature(self, kappa: Vector3) -> Result<Self, RodParameterError> {
         for value in &kappa {
-            RodParameterError::check_finite(RodKey::RestCurvature, *value)?;
+            RodParameterError::check_finite("rest_curvature_per_nm", *value)?;
         }
         Ok(Self {
             rest_curvature: kappa,
@@ -113,7 +113,7 @@ impl RodMaterial {
     /// If `TwistLaw::validate` fails, or if the material is a potential.
     pub fn with_twist(self, twist: TwistLaw) -> Result<Self, RodParameterError> {
         twist.validate()?;
-        let laws = self.replaceable(RodKey::Twist)?;
+        let laws = self.replaceable("twist")?;
         Ok(self.with_laws(StrainLaws { twist, ..laws }))
     }
 
@@ -123,7 +123,7 @@ impl RodMaterial {
     /// If `BendLaw::validate` fails, or if the material is a potential.
     pub fn with_bend(self, bend: BendLaw) -> Result<Self, RodParameterError> {
         bend.validate()?;
-        let laws = self.replaceable(RodKey::Bend)?;
+        let laws = self.replaceable("bend")?;
         Ok(self.with_laws(StrainLaws { bend, ..laws }))
     }
 
@@ -133,7 +133,7 @@ impl RodMaterial {
     /// If `StretchLaw::validate` fails, or if the material is a potential.
     pub fn with_stretch(self, stretch: StretchLaw) -> Result<Self, RodParameterError> {
         stretch.validate()?;
-        let laws = self.replaceable(RodKey::Tension)?;
+        let laws = self.replaceable("tension")?;
         Ok(self.with_laws(StrainLaws { stretch, ..laws }))
     }
 
@@ -143,7 +143,7 @@ impl RodMaterial {
     /// If `CubicShear::validate` fails, or if the material is a potential.
     pub fn with_shear(self, shear: CubicShear) -> Result<Self, RodParameterError> {
         shear.validate()?;
-        let laws = self.replaceable(RodKey::Shear)?;
+        let laws = self.replaceable("shear")?;
         Ok(self.with_laws(StrainLaws { shear, ..laws }))
     }
 
@@ -154,7 +154,7 @@ impl RodMaterial {
         }
     }
 
-    fn replaceable(self, key: RodKey) -> Result<StrainLaws, RodParameterError> {
+    fn replaceable(self, key: &'static str) -> Result<StrainLaws, RodParameterError> {
         match self.kind {
             Kind::Laws(laws) => Ok(laws),
             Kind::Potential(_) => Err(RodParameterError {

@@ -1,6 +1,6 @@
 //! Rigidities of a rod.
 
-use crate::{RodKey, RodParameterError, constants};
+use crate::{RodParameterError, constants};
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
@@ -74,13 +74,13 @@ impl Rigidities {
     /// # Errors
     /// If a rigidity is not positive and finite.
     pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
-        for (key, value) in [RodKey::S1, RodKey::S2, RodKey::S3]
+        for (key, value) in ["shear_pn[0]", "shear_pn[1]", "shear_pn[2]"]
             .into_iter()
             .zip(&self.shear)
         {
             RodParameterError::unless_positive(key, *value)?;
         }
-        for (key, value) in [RodKey::B1, RodKey::B2, RodKey::B3]
+        for (key, value) in ["bend_pn_nm2[0]", "bend_pn_nm2[1]", "bend_pn_nm2[2]"]
             .into_iter()
             .zip(&self.bend)
         {
@@ -123,7 +123,7 @@ impl RigidityFactors {
     pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         let all = [self.shear, self.stretch, self.bend, self.twist];
         all.into_iter()
-            .try_for_each(|value| RodParameterError::unless_positive(RodKey::Factor, value))
+            .try_for_each(|value| RodParameterError::unless_positive("factor", value))
     }
 }
 
@@ -149,12 +149,12 @@ mod tests {
     #[test]
     fn each_rigidity_is_checked_under_its_own_key() {
         for (k, key) in [
-            RodKey::S1,
-            RodKey::S2,
-            RodKey::S3,
-            RodKey::B1,
-            RodKey::B2,
-            RodKey::B3,
+            "shear_pn[0]",
+            "shear_pn[1]",
+            "shear_pn[2]",
+            "bend_pn_nm2[0]",
+            "bend_pn_nm2[1]",
+            "bend_pn_nm2[2]",
         ]
         .into_iter()
         .enumerate()

@@ -21,6 +21,14 @@ impl InterfaceKind {
         }
     }
 
+    /// Name of a parameter of this kind in errors.
+    pub(crate) fn key(self, parameter: &str) -> String {
+        match self {
+            Self::Lateral => format!("lateral.{parameter}"),
+            Self::Longitudinal => format!("longitudinal.{parameter}"),
+        }
+    }
+
     pub(crate) fn number(self) -> u64 {
         match self {
             Self::Lateral => 0,

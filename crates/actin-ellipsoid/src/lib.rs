@@ -25,7 +25,6 @@ mod helix;
 mod interface;
 mod interface_kind;
 mod kernel;
-mod key;
 mod model;
 mod monomers;
 mod parameters;
@@ -44,7 +43,6 @@ pub use ellipsoid::Ellipsoid;
 pub use helix::{Helix, Neighbour};
 pub use interface::{Interface, InterfaceError};
 pub use interface_kind::InterfaceKind;
-pub use key::{EllipsoidKey, InterfaceKey};
 pub use model::EllipsoidModel;
 pub use monomers::{LatticeError, Monomers, Placement};
 pub use parameters::{

@@ -1,6 +1,6 @@
 //! Parameters of the ellipsoid model.
 
-use crate::{EllipsoidKey, InterfaceKey, InterfaceKind, constants};
+use crate::{InterfaceKind, constants};
 use actin_mechanics::InertiaError;
 use thiserror::Error;
 
@@ -93,7 +93,7 @@ pub enum EllipsoidParameterError {
     #[error("{key} = {value}: must be {rule}")]
     OutOfRange {
         /// Name of the parameter.
-        key: EllipsoidKey,
+        key: String,
         /// Value of the parameter.
         value: f64,
         /// Rule of the parameter.
@@ -165,17 +165,17 @@ impl EllipsoidParameters {
     pub(crate) fn validate(&self) -> Result<(), EllipsoidParameterError> {
         if !(self.radius.is_finite() && self.radius >= 0.0) {
             return Err(out_of_range(
-                EllipsoidKey::Radius,
+                "radius",
                 self.radius,
                 "finite and not negative",
             ));
         }
-        finite(EllipsoidKey::Turn, self.turn)?;
-        finite(EllipsoidKey::Azimuth, self.azimuth)?;
-        positive(EllipsoidKey::Rise, self.rise)?;
-        positive(EllipsoidKey::Mass, self.mass)?;
+        finite("turn", self.turn)?;
+        finite("azimuth", self.azimuth)?;
+        positive("rise", self.rise)?;
+        positive("mass", self.mass)?;
         for semi_axis in self.semi_axes {
-            positive(EllipsoidKey::SemiAxes, semi_axis)?;
+            positive("semi_axes", semi_axis)?;
         }
         self.lateral.validate(InterfaceKind::Lateral)?;
         self.longitudinal.validate(InterfaceKind::Longitudinal)?;
@@ -184,10 +184,10 @@ impl EllipsoidParameters {
                 (InterfaceKind::Lateral, &self.lateral),
                 (InterfaceKind::Longitudinal, &self.longitudinal),
             ] {
-                let key = EllipsoidKey::Interface(kind, InterfaceKey::Bonds);
+                let key = kind.key("bonds");
                 if !(MIN_POINTS..=MAX_POINTS).contains(&interface.bonds) {
                     let rule = "4 to 64 for quadrature bonds";
-                    return Err(out_of_range(key, interface.bonds as f64, rule));
+                    return Err(out_of_range(&key, interface.bonds as f64, rule));
                 }
             }
         }
@@ -197,29 +197,29 @@ impl EllipsoidParameters {
 
 impl InterfaceParameters {
     fn validate(&self, kind: InterfaceKind) -> Result<(), EllipsoidParameterError> {
-        let key = |key| EllipsoidKey::Interface(kind, key);
-        positive(key(InterfaceKey::Rigidity), self.rigidity)?;
-        positive(key(InterfaceKey::MaximumLength), self.maximum_length)?;
+        positive(&kind.key("rigidity"), self.rigidity)?;
+        positive(&kind.key("maximum_length"), self.maximum_length)?;
         if !(self.minimum_length >= 0.0 && self.minimum_length < self.maximum_length) {
             let rule = "at least 0 and less than the longest bond";
             return Err(out_of_range(
-                key(InterfaceKey::MinimumLength),
+                &kind.key("minimum_length"),
                 self.minimum_length,
                 rule,
             ));
         }
         if self.bonds == 0 {
-            return Err(out_of_range(key(InterfaceKey::Bonds), 0.0, "at least 1"));
+            return Err(out_of_range(&kind.key("bonds"), 0.0, "at least 1"));
         }
         Ok(())
     }
 }
 
-fn out_of_range(key: EllipsoidKey, value: f64, rule: &'static str) -> EllipsoidParameterError {
+fn out_of_range(key: &str, value: f64, rule: &'static str) -> EllipsoidParameterError {
+    let key = key.to_owned();
     EllipsoidParameterError::OutOfRange { key, value, rule }
 }
 
-fn positive(key: EllipsoidKey, value: f64) -> Result<(), EllipsoidParameterError> {
+fn positive(key: &str, value: f64) -> Result<(), EllipsoidParameterError> {
     if value.is_finite() && value > 0.0 {
         Ok(())
     } else {
@@ -227,7 +227,7 @@ fn positive(key: EllipsoidKey, value: f64) -> Result<(), EllipsoidParameterError
     }
 }
 
-fn finite(key: EllipsoidKey, value: f64) -> Result<(), EllipsoidParameterError> {
+fn finite(key: &str, value: f64) -> Result<(), EllipsoidParameterError> {
     if value.is_finite() {
         Ok(())
     } else {
@@ -248,7 +248,7 @@ mod tests {
         match EllipsoidModel::new(parameters) {
             Err(EllipsoidParameterError::OutOfRange { key, value: v, .. }) => {
                 assert_eq!(v.to_bits(), value.to_bits());
-                Some(key.to_string())
+                Some(key)
             }
             _ => None,
         }

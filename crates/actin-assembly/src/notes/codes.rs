@@ -20,18 +20,3 @@ pub(crate) const PERSISTENCE_LENGTH: &str = "no-persistence-length";
 pub(crate) const SAMPLED_INTERFACES: &str = "sampled-interfaces";
 /// Chosen sections do not meet the requested error.
 pub(crate) const RESOLUTION: &str = "resolution-not-met";
-
-/// All codes of this crate.
-#[cfg(test)]
-pub(crate) const ALL: [&str; 10] = [
-    FEW_BONDS,
-    SHORT_ROD,
-    LONG_SEGMENTS,
-    PARTLY_RESOLVED,
-    PATH_LOADS,
-    ROD_LAW,
-    OVERLAP,
-    PERSISTENCE_LENGTH,
-    SAMPLED_INTERFACES,
-    RESOLUTION,
-];

@@ -281,15 +281,6 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    #[test]
-    fn codes_are_documented() {
-        let page = include_str!("../../../../docs/reference/troubleshooting.md");
-        for (i, code) in codes::ALL.iter().enumerate() {
-            assert!(page.contains(&format!("| `{code}` |")), "{code}");
-            assert!(!codes::ALL[..i].contains(code), "{code}");
-        }
-    }
-
     pub(super) fn notes(filaments: &str, task: &str) -> Vec<String> {
         let text =
             format!("Scene(filaments: [{filaments}], task: Dynamics(duration_ns: 1.0, {task}))");

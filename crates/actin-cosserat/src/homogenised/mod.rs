@@ -19,8 +19,8 @@ pub use terms::Term;
 pub(crate) use polynomial::{Polynomial, TWIST_SIZE};
 pub(crate) use terms::{BENT, CURVATURE, EXTENSION, SHEAR, SLACK, TIGHT};
 
+use crate::RodParameterError;
 use crate::fast::{Law, Potential};
-use crate::{RodKey, RodParameterError};
 use actin_mechanics::wide::Scalar;
 use nalgebra::{Matrix6, Vector6};
 use polynomial::{DEGREE, bounded_twist, polynomial, value_of};
@@ -99,7 +99,7 @@ pub struct PotentialJet {
 
 fn padded(coefficients: &[f64], most: usize) -> Result<Polynomial, RodParameterError> {
     let refused = |value, rule| RodParameterError {
-        key: RodKey::Coefficient,
+        key: "coefficients",
         value,
         rule,
     };
@@ -132,7 +132,7 @@ impl HomogenisedForm {
     pub fn with_rest(self, rest: f64) -> Result<Self, RodParameterError> {
         if !(rest.is_finite() && rest > -1.0) {
             return Err(RodParameterError {
-                key: RodKey::Coefficient,
+                key: "coefficients",
                 value: rest,
                 rule: "finite and above -1",
             });

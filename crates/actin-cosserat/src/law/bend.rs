@@ -1,7 +1,7 @@
 //! Laws of bending.
 
 use super::Stiffening;
-use crate::{RodKey, RodParameterError};
+use crate::RodParameterError;
 use actin_mechanics::{Matrix3, Vector3};
 
 /// Law of bending: torques about d1 and d2, and the contribution to twist.
@@ -23,8 +23,8 @@ impl BendLaw {
     pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         match self {
             Self::Constant([b1, b2]) => {
-                RodParameterError::unless_positive(RodKey::B1, *b1)?;
-                RodParameterError::unless_positive(RodKey::B2, *b2)
+                RodParameterError::unless_positive("bend_pn_nm2[0]", *b1)?;
+                RodParameterError::unless_positive("bend_pn_nm2[1]", *b2)
             }
             Self::Stiffening(law) => law.validate(),
         }

@@ -1,6 +1,6 @@
 //! Published natural length as a function of twist.
 
-use crate::{RodKey, RodParameterError, constants};
+use crate::{RodParameterError, constants};
 
 /// Ratio of natural to rest length as a polynomial of the twist `k` (rad/nm).
 ///
@@ -70,11 +70,11 @@ impl PolynomialStretch {
     /// If a coefficient is not finite, or if the range is not positive.
     pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         if self.range.is_nan() || self.range <= 0.0 {
-            let (key, value, rule) = (RodKey::Range, self.range, "positive");
+            let (key, value, rule) = ("range_per_nm", self.range, "positive");
             return Err(RodParameterError { key, value, rule });
         }
         let mut coefficients = self.coefficients.iter();
-        coefficients.try_for_each(|p| RodParameterError::check_finite(RodKey::Coefficient, *p))
+        coefficients.try_for_each(|p| RodParameterError::check_finite("coefficients", *p))
     }
 
     /// `xi - 1` at `k` (rad/nm), with two derivatives.
@@ -139,12 +139,12 @@ mod tests {
     fn bad_numbers_are_refused() {
         let mut law = PolynomialStretch::published();
         law.coefficients[3] = f64::NAN;
-        assert_eq!(law.validate().unwrap_err().key, RodKey::Coefficient);
+        assert_eq!(law.validate().unwrap_err().key, "coefficients");
         let law = PolynomialStretch {
             range: 0.0,
             ..PolynomialStretch::published()
         };
-        assert_eq!(law.validate().unwrap_err().key, RodKey::Range);
+        assert_eq!(law.validate().unwrap_err().key, "range_per_nm");
         assert_eq!(PolynomialStretch::linear(9.35e3, 3.4e4).validate(), Ok(()));
     }
 }

@@ -1,6 +1,6 @@
 //! Natural length with different slopes in under-twist and over-twist.
 
-use crate::{RodKey, RodParameterError};
+use crate::RodParameterError;
 
 /// Ratio of natural to rest length with different slopes on both sides of rest.
 ///
@@ -46,12 +46,12 @@ impl RootedStretch {
     /// # Errors
     /// If `half` or the range is not positive, or if another parameter is not finite.
     pub fn validate(&self) -> Result<(), RodParameterError> {
-        RodParameterError::unless_positive(RodKey::Half, self.half)?;
-        RodParameterError::unless_positive(RodKey::Range, self.range)?;
+        RodParameterError::unless_positive("half_per_nm", self.half)?;
+        RodParameterError::unless_positive("range_per_nm", self.range)?;
         [
-            (RodKey::Slope, self.slope),
-            (RodKey::Bend, self.bend),
-            (RodKey::Cubic, self.cubic),
+            ("slope_nm", self.slope),
+            ("bend_nm", self.bend),
+            ("cubic_nm3", self.cubic),
         ]
         .into_iter()
         .try_for_each(|(key, value)| RodParameterError::check_finite(key, value))

@@ -1,6 +1,6 @@
 //! Law of shear.
 
-use crate::{RodKey, RodParameterError};
+use crate::RodParameterError;
 use nalgebra::{Matrix2, Vector2};
 
 type Pair = Vector2<f64>;
@@ -45,12 +45,12 @@ impl CubicShear {
     pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         let [s1, s2] = self.linear;
         for (key, value) in [
-            (RodKey::S1, s1),
-            (RodKey::S2, s2),
-            (RodKey::CubicShear, self.cubic),
+            ("linear_pn", s1),
+            ("linear_pn", s2),
+            ("cubic_pn", self.cubic),
         ] {
             // The linear part may be zero with a cubic part.
-            if self.cubic == 0.0 && key != RodKey::CubicShear {
+            if self.cubic == 0.0 && key != "cubic_pn" {
                 RodParameterError::unless_positive(key, value)?;
             }
             if !(value >= 0.0 && value.is_finite()) {

@@ -1,6 +1,6 @@
 //! Twist rigidity that rises differently in under-twist and over-twist.
 
-use crate::{RodKey, RodParameterError};
+use crate::RodParameterError;
 
 /// Secant twist rigidity that saturates on both sides of rest.
 ///
@@ -56,12 +56,12 @@ pub struct TwistRise {
 
 impl TwistRise {
     fn validate(&self) -> Result<(), RodParameterError> {
-        RodParameterError::unless_positive(RodKey::Rise, self.rise)?;
-        RodParameterError::unless_positive(RodKey::Half, self.half)?;
+        RodParameterError::unless_positive("rise_pn_nm2", self.rise)?;
+        RodParameterError::unless_positive("half_per_nm", self.half)?;
         if self.slow >= 0.0 && self.slow.is_finite() {
             return Ok(());
         }
-        let (key, value, rule) = (RodKey::Slow, self.slow, "finite and not negative");
+        let (key, value, rule) = ("slow_per_nm", self.slow, "finite and not negative");
         Err(RodParameterError { key, value, rule })
     }
 
@@ -102,12 +102,12 @@ impl SidedTwist {
     /// If a rise, `half` or the range is not positive, or if `rest` or `slow` is negative.
     pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         if !(self.rest >= 0.0 && self.rest.is_finite()) {
-            let (key, value, rule) = (RodKey::Rest, self.rest, "finite and not negative");
+            let (key, value, rule) = ("rest_pn_nm2", self.rest, "finite and not negative");
             return Err(RodParameterError { key, value, rule });
         }
         self.under.validate()?;
         self.over.validate()?;
-        RodParameterError::unless_positive(RodKey::Range, self.range)
+        RodParameterError::unless_positive("range_per_nm", self.range)
     }
 
     #[inline]

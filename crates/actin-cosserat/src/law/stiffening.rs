@@ -1,6 +1,6 @@
 //! Bending stiffened by curvature, twist and shear.
 
-use crate::{RodKey, RodParameterError};
+use crate::RodParameterError;
 
 /// Secant bending rigidity that rises from `rest` to `rest + rise`.
 ///
@@ -105,16 +105,16 @@ impl Stiffening {
     /// # Errors
     /// If a rigidity, scale or range is not positive, or if `rise` is negative.
     pub fn validate(&self) -> Result<(), RodParameterError> {
-        RodParameterError::unless_positive(RodKey::Rest, self.rest)?;
-        RodParameterError::unless_positive(RodKey::Curvature, self.curvature)?;
+        RodParameterError::unless_positive("rest_pn_nm2", self.rest)?;
+        RodParameterError::unless_positive("curvature_per_nm", self.curvature)?;
         if !(self.rise >= 0.0 && self.rise.is_finite()) {
-            let (key, value, rule) = (RodKey::Rise, self.rise, "finite and not negative");
+            let (key, value, rule) = ("rise_pn_nm2", self.rise, "finite and not negative");
             return Err(RodParameterError { key, value, rule });
         }
         let scales = [
-            (RodKey::Twist, self.twist),
-            (RodKey::Shear, self.shear),
-            (RodKey::Range, self.range),
+            ("twist_per_nm", self.twist),
+            ("shear", self.shear),
+            ("range_per_nm", self.range),
         ];
         for (key, value) in scales {
             if value.is_nan() || value <= 0.0 {

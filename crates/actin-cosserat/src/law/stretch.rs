@@ -1,6 +1,6 @@
 //! Laws of stretch.
 
-use crate::{RodKey, RodParameterError};
+use crate::RodParameterError;
 
 /// Law of stretch, as a function of the strain along the rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,15 +37,17 @@ impl StretchLaw {
     /// If a parameter is not positive and finite.
     pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         match *self {
-            Self::Constant { rigidity: s3 } => RodParameterError::unless_positive(RodKey::S3, s3),
+            Self::Constant { rigidity: s3 } => {
+                RodParameterError::unless_positive("rigidity_pn", s3)
+            }
             Self::Sided {
                 tension,
                 compression,
                 width,
             } => [
-                (RodKey::Tension, tension),
-                (RodKey::Compression, compression),
-                (RodKey::Width, width),
+                ("tension_pn", tension),
+                ("compression_pn", compression),
+                ("width", width),
             ]
             .into_iter()
             .try_for_each(|(key, value)| RodParameterError::unless_positive(key, value)),

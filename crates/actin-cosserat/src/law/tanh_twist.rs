@@ -1,7 +1,7 @@
 //! Published twist rigidity as a function of twist.
 
 use super::dilogarithm::tanh_energy;
-use crate::{RodKey, RodParameterError, constants};
+use crate::{RodParameterError, constants};
 
 /// Secant twist rigidity with three tanh steps.
 ///
@@ -62,22 +62,21 @@ impl TanhTwist {
     /// If `l2`, `l5`, `l7` or the range is not positive, if a parameter is not finite, or if the
     /// torque does not increase at a limit of the range.
     pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
-        let widths = [
-            (RodKey::Lambda2, 1),
-            (RodKey::Lambda5, 4),
-            (RodKey::Lambda7, 6),
-        ];
+        let widths = [("lambda[1]", 1), ("lambda[4]", 4), ("lambda[6]", 6)];
         for (key, i) in widths {
             RodParameterError::unless_positive(key, self.lambda[i])?;
         }
-        RodParameterError::unless_positive(RodKey::Range, self.range)?;
-        let others = [(RodKey::BPlus, self.b_plus), (RodKey::BMinus, self.b_minus)];
-        let lambdas = self.lambda.map(|value| (RodKey::Lambda, value));
+        RodParameterError::unless_positive("range_per_nm", self.range)?;
+        let others = [
+            ("b_plus_pn_nm2", self.b_plus),
+            ("b_minus_pn_nm2", self.b_minus),
+        ];
+        let lambdas = self.lambda.map(|value| ("lambda", value));
         for (key, value) in others.into_iter().chain(lambdas) {
             RodParameterError::check_finite(key, value)?;
         }
         for end in [-self.range, self.range] {
-            let key = RodKey::EndSlope;
+            let key = "slope of the couple at the end of the range";
             RodParameterError::unless_positive(key, self.inner_tangent(end))?;
         }
         Ok(())
@@ -276,7 +275,7 @@ pub(super) mod tests {
                 assert!(found.to_string().starts_with("lambda"), "{found}");
             }
         }
-        assert_eq!(key(&|law| law.lambda[0] = f64::INFINITY), RodKey::Lambda);
+        assert_eq!(key(&|law| law.lambda[0] = f64::INFINITY), "lambda");
         let falling = key(&|law| law.b_plus = -5e4);
         assert!(falling.to_string().starts_with("slope"), "{falling}");
     }

@@ -1,7 +1,7 @@
 //! Laws of twist.
 
 use super::{SidedTwist, TanhTwist, TwistRise};
-use crate::{RodKey, RodParameterError};
+use crate::RodParameterError;
 
 /// Law of twist with secant rigidity `B3(k)`, torque `B3(k) k`, and energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,7 @@ impl TwistLaw {
     /// If a parameter is out of range.
     pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         match self {
-            Self::Constant(b3) => RodParameterError::unless_positive(RodKey::B3, *b3),
+            Self::Constant(b3) => RodParameterError::unless_positive("bend_pn_nm2[2]", *b3),
             Self::Tanh(law) => law.validate(),
             Self::Sided(law) => law.validate(),
         }

@@ -46,27 +46,6 @@ pub struct DerivedLength {
     pub persistence_length_error_nm: Option<f64>,
 }
 
-impl ObservableSummary {
-    pub(crate) fn numbers(&self, name: &str) -> Vec<(String, f64)> {
-        let mean = self.mean.unwrap_or_default();
-        let derived = mean.derived.unwrap_or_default();
-        [
-            ("last", self.last),
-            ("mean", mean.mean),
-            ("error", mean.error),
-            ("independent_samples", mean.independent_samples),
-            ("persistence_length_nm", derived.persistence_length_nm),
-            (
-                "persistence_length_error_nm",
-                derived.persistence_length_error_nm,
-            ),
-        ]
-        .into_iter()
-        .filter_map(|(key, value)| Some((format!("observables.{name}.{key}"), value?)))
-        .collect()
-    }
-}
-
 /// Running averages of all columns.
 pub(crate) struct Averages<'a> {
     assembly: &'a Assembly,

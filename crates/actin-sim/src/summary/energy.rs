@@ -37,19 +37,4 @@ impl EnergySummary {
             terms,
         }
     }
-
-    pub(super) fn numbers(&self) -> impl Iterator<Item = (String, f64)> {
-        let sums = [
-            ("total", self.total),
-            ("potential", self.potential),
-            ("elastic", self.elastic),
-            ("kinetic", self.kinetic),
-        ];
-        let terms = self
-            .terms
-            .iter()
-            .map(|(name, value)| (name.as_str(), *value));
-        let all = sums.into_iter().chain(terms);
-        all.map(|(key, value)| (format!("energy_pn_nm.{key}"), value))
-    }
 }

@@ -1,6 +1,6 @@
 //! Filaments in `summary.json`: tips, reactions, shapes.
 
-use super::{CountKeys, below, end_numbers};
+use super::CountKeys;
 use crate::loads::loads_of;
 use crate::shape::{self, Ribbon};
 use crate::{Assembly, Counts, End, Reaction, Record};
@@ -61,16 +61,6 @@ impl FilamentSummary {
             seed: assembly.monomers_of(filament).seed,
         }
     }
-
-    pub(super) fn numbers(&self) -> Vec<(String, f64)> {
-        let mut all = vec![("elastic_pn_nm".to_owned(), self.elastic_pn_nm)];
-        all.extend(end_numbers(
-            [self.tip_nm, self.tip_displacement_nm],
-            &self.end_reactions,
-        ));
-        all.extend(below("shape", self.shape.numbers()));
-        all
-    }
 }
 
 /// End whose tip is reported: the last one, unless it is clamped and the first one is free.
@@ -112,17 +102,6 @@ impl ShapeSummary {
             largest_distance_nm: ribbon.largest_distance_nm(),
         }
     }
-
-    pub(super) fn numbers(&self) -> impl Iterator<Item = (String, f64)> {
-        let all = [
-            ("twist_turns", Some(self.twist_turns)),
-            ("writhe", self.writhe),
-            ("link_turns", self.link_turns),
-            ("largest_distance_nm", Some(self.largest_distance_nm)),
-        ];
-        all.into_iter()
-            .filter_map(|(key, value)| Some((key.to_owned(), value?)))
-    }
 }
 
 /// Reactions at the clamped ends; free ends have no key.
@@ -155,19 +134,6 @@ impl EndReactions {
             start: at(End::Start),
             end: at(End::End),
         }
-    }
-
-    pub(super) fn vectors(&self) -> Vec<(&'static str, [f64; 3])> {
-        let mut vectors = Vec::new();
-        if let Some(start) = self.start {
-            vectors.push(("end_reactions.start.force_pn", start.force_pn));
-            vectors.push(("end_reactions.start.torque_pn_nm", start.torque_pn_nm));
-        }
-        if let Some(end) = self.end {
-            vectors.push(("end_reactions.end.force_pn", end.force_pn));
-            vectors.push(("end_reactions.end.torque_pn_nm", end.torque_pn_nm));
-        }
-        vectors
     }
 }
 

@@ -1,6 +1,5 @@
 //! Linkers in `summary.json`.
 
-use super::components;
 use crate::Assembly;
 use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
@@ -54,15 +53,5 @@ impl LinkerSummary {
             }
         };
         linkers.map(summary).collect()
-    }
-
-    pub(super) fn numbers(&self) -> Vec<(String, f64)> {
-        let vectors = [
-            ("site_nm", self.site_nm),
-            ("anchor_nm", self.anchor_nm),
-            ("force_pn", self.force_pn),
-        ];
-        let extension = ("extension_nm".to_owned(), self.extension_nm);
-        components(vectors).chain([extension]).collect()
     }
 }

@@ -6,6 +6,7 @@ mod energy;
 mod filament;
 mod following;
 mod linkers;
+mod numbers;
 mod states;
 mod statistics;
 mod thermal;
@@ -222,78 +223,8 @@ impl Summary {
 
     /// Numbers by key, for checks that they are finite: `tip_nm[0]`, `filaments[0].elastic_pn_nm`.
     pub fn numbers(&self) -> Vec<(String, f64)> {
-        let temperature = self.thermal.and_then(|one| one.kinetic_temperature_k);
-        let eigenvalue = self.lowest_stiffness_eigenvalue;
-        let frequency = self.largest_frequency_rad_per_ns;
-        let scalars = [
-            ("wall_s", Some(self.wall_s)),
-            ("residual.force_pn", Some(self.residual.force_pn)),
-            ("residual.torque_pn_nm", Some(self.residual.torque_pn_nm)),
-            ("time_ns", self.time_ns),
-            ("path", self.path),
-            ("time_step_ns", self.time_step_ns),
-            ("smallest_gap_nm", self.smallest_gap_nm),
-            ("largest_frequency_rad_per_ns", frequency),
-            ("lowest_stiffness_eigenvalue", eigenvalue),
-            ("thermal.kinetic_temperature_k", temperature),
-        ];
-        let scalars = scalars.into_iter();
-        let known = scalars.filter_map(|(key, value)| Some((key.to_owned(), value?)));
-        let mut all: Vec<_> = known.collect();
-        all.extend(self.energy_pn_nm.numbers());
-        let observed = self.observables.iter();
-        all.extend(observed.flat_map(|(name, one)| one.numbers(name)));
-        all.extend(self.pushes.iter().enumerate().flat_map(push_numbers));
-        let tip = [self.tip_nm, self.tip_displacement_nm];
-        all.extend(end_numbers(tip, &self.end_reactions));
-        all.extend(below("shape", self.shape.numbers()));
-        for (i, filament) in self.filaments.iter().enumerate() {
-            all.extend(below(&format!("filaments[{i}]"), filament.numbers()));
-        }
-        for (i, linker) in self.linkers.iter().enumerate() {
-            all.extend(below(&format!("linkers[{i}]"), linker.numbers()));
-        }
-        all
+        numbers::of(self)
     }
-}
-
-fn push_numbers((i, push): (usize, &SaddlePush)) -> [(String, f64); 5] {
-    [
-        ("time_ns", push.time_ns),
-        ("energy_pn_nm", push.energy_pn_nm),
-        ("lowest_eigenvalue", push.lowest_eigenvalue),
-        ("displacement_nm", push.displacement_nm),
-        ("turn_rad", push.turn_rad),
-    ]
-    .map(|(key, value)| (format!("pushes[{i}].{key}"), value))
-}
-
-/// Numbers of the tip (position, displacement) and of the reactions of a filament.
-fn end_numbers(
-    [tip_nm, tip_displacement_nm]: [[f64; 3]; 2],
-    reactions: &EndReactions,
-) -> impl Iterator<Item = (String, f64)> {
-    let tip = [
-        ("tip_nm", tip_nm),
-        ("tip_displacement_nm", tip_displacement_nm),
-    ];
-    components(tip.into_iter().chain(reactions.vectors()))
-}
-
-/// Components of vectors, as `key[0]` to `key[2]`.
-fn components(
-    vectors: impl IntoIterator<Item = (&'static str, [f64; 3])>,
-) -> impl Iterator<Item = (String, f64)> {
-    let vectors = vectors.into_iter();
-    vectors.flat_map(|(key, vector)| [0, 1, 2].map(|i| (format!("{key}[{i}]"), vector[i])))
-}
-
-fn below(
-    key: &str,
-    numbers: impl IntoIterator<Item = (String, f64)>,
-) -> impl Iterator<Item = (String, f64)> {
-    let numbers = numbers.into_iter();
-    numbers.map(move |(name, value)| (format!("{key}.{name}"), value))
 }
 
 #[cfg(test)]
