@@ -1,7 +1,6 @@
 //! `cargo xtask extremes`: tests every number of a scene at its limits and writes a table with
 //! pictures. A result must have its stated accuracy, or a message must explain why there is none.
 
-mod directories;
 mod fields;
 #[cfg(test)]
 mod fuzz_tests;
@@ -76,7 +75,7 @@ fn table(is_long: bool) -> Vec<Row> {
     };
     // Not in parallel with other groups, since the rows measure time and memory.
     let sizes = timed(&("sizes", &|| sizes::sizes(is_long)));
-    let groups: [Group<'_>; 20] = [
+    let groups: [Group<'_>; 19] = [
         ("time steps", &steps::limits),
         ("energy below the limit", &steps::energies),
         ("time steps of scenes", &steps::asked),
@@ -96,7 +95,6 @@ fn table(is_long: bool) -> Vec<Row> {
         ("origin", &sizes::origin),
         ("fields", &|| fields::rows(!is_test)),
         ("guards", &sizes::guards),
-        ("directories", &directories::rows),
     ];
     let rows = groups.par_iter().with_max_len(1).map(timed);
     rows.collect::<Vec<_>>().concat()
