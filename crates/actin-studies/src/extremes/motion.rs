@@ -125,7 +125,7 @@ fn creeping(rate: f64) -> CaseResult {
     let time = if rate > 22.0 { rate / 120.0 } else { 0.15 };
     let tip = |share: f64| {
         let keys = format!("step_safety: {share:?}, record_every_ns: 1e9");
-        Ok(damped(sections, rest, time, rate, &keys)?.tip_displacement())
+        damped(sections, rest, time, rate, &keys).map(|ran| ran.tip_displacement())
     };
     let (coarse, fine) = (tip(0.5)?, tip(0.5 / 8.0)?);
     let error = (coarse - fine).norm() / fine.norm();
