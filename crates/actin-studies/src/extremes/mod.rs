@@ -67,8 +67,7 @@ type Group<'a> = (&'static str, &'a (dyn Fn() -> Vec<Row> + Sync));
 
 /// The table in print order. Tests omit the rows that take long.
 fn table(is_long: bool) -> Vec<Row> {
-    let is_test = cfg!(test);
-    let steps = match (is_test, is_long) {
+    let steps = match (cfg!(test), is_long) {
         (true, _) => 50_000,
         (false, false) => 100_000,
         (false, true) => 10_000_000,
@@ -80,7 +79,7 @@ fn table(is_long: bool) -> Vec<Row> {
         ("energy below the limit", &steps::energies),
         ("time steps of scenes", &steps::asked),
         ("stiffness contrast", &loads::contrast),
-        ("twist", &|| states::twist(!is_test)),
+        ("twist", &states::twist),
         ("turns of a segment", &states::one_segment),
         ("turns that slip", &states::slipping),
         ("straight rods", &states::straight),
