@@ -2,10 +2,10 @@
 //! number of steps. The table of `docs/measured/statics.md` is printed by `cargo test -p actin-sim
 //! --test integration equilibria::extremes -- --nocapture`.
 
-use super::common::{build, run, run_anyway};
+use super::common::{build, run_anyway};
 use actin_equilibrium::{PathFailure, Stability};
 use actin_mechanics::Vector3;
-use actin_sim::{Assembly, End, Failure, Load, Outcome, Record, RunError, Trajectory};
+use actin_sim::{Assembly, Failure, Load, Outcome, Record, RunError, Trajectory};
 use std::time::Instant;
 
 /// Largest force and torque on a free body at an equilibrium (pN, pN nm).
@@ -249,15 +249,4 @@ fn extremes_of_length() {
         ..Extreme::pulled(name, sections, [1.0, 0.0, 0.0])
     };
     assert!(extreme.check());
-}
-
-#[test]
-fn full_turns_of_twist_are_kept() {
-    let mut assembly = turned("two turns", ROD_75, 720.0).assembly();
-    run(&mut assembly).unwrap();
-    let loads = assembly.system.loads().clone();
-    let clamp = assembly.clamps.iter().find(|c| c.end == End::End).unwrap();
-    let couple = clamp.reaction(assembly.system.state(), &loads).torque_pn_nm;
-    let exact = 1.3e4 * 4.0 * std::f64::consts::PI / 75.0;
-    assert!((couple.z - exact).abs() < 1e-5, "{couple} against {exact}");
 }

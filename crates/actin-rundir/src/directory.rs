@@ -146,7 +146,7 @@ fn refuse_link(path: &Path) -> Result<(), RunDirectoryError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixture::names;
+    use crate::fixture::{contents, names};
     use crate::manifest::remove_if_there;
     use crate::names::{
         CHECKPOINT, ENERGIES, FILES, PICTURES, PROFILE, RECORDS, SCENE, SUMMARY, picture_name,
@@ -214,9 +214,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         earlier_run(folder.path());
         spoil(folder.path());
-        let before = names(folder.path());
+        let before = contents(folder.path());
         let error = RunDirectory::create(folder.path(), true).unwrap_err();
-        assert_eq!(before, names(folder.path()), "{error}");
+        assert_eq!(before, contents(folder.path()), "{error}");
         error.to_string()
     }
 

@@ -1,8 +1,9 @@
 //! Small mixed filaments and synthetic runs for tests.
 
+use crate::names::PICTURES;
 use actin_sim::mechanics::{Xorshift, perturb, randomise_velocities};
 use actin_sim::{Assembly, At, Outcome, Record, Scene, Status, Trajectory};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Monomers at a clamped start, followed by a rod, with more keys of the scene. The title needs XML
 /// escapes.
@@ -59,6 +60,18 @@ pub(crate) fn names(folder: &Path) -> Vec<String> {
         .collect();
     names.sort();
     names
+}
+
+/// Paths in a run directory with the bytes of files.
+pub(crate) fn contents(folder: &Path) -> Vec<(PathBuf, Option<Vec<u8>>)> {
+    let folders = [folder.to_owned(), folder.join(PICTURES)];
+    let entries = folders.iter().flat_map(|f| std::fs::read_dir(f).unwrap());
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let mut all: Vec<_> = paths
+        .map(|path| (path.clone(), std::fs::read(path).ok()))
+        .collect();
+    all.sort();
+    all
 }
 
 /// Three records of random states near rest. All numbers of free bodies differ.

@@ -231,12 +231,11 @@ impl<'a> Results<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixture::{self, names};
+    use crate::fixture::{self, contents, names};
     use crate::lock::LOCK;
     use crate::names::MANIFEST;
     use actin_sim::mechanics::State;
     use actin_sim::{At, Trajectory};
-    use std::path::{Path, PathBuf};
     use tempfile::TempDir;
 
     type Spoil = fn(&mut State);
@@ -336,7 +335,7 @@ mod tests {
             .write(&plan(&assembly), &trajectory, &outcome)
             .unwrap();
         let before = contents(folder.path());
-        for name in [STATES, "vtk/0002.vtp", SUMMARY] {
+        for name in [SCENE, STATES, "vtk/0002.vtp", SUMMARY] {
             let obstacle = folder.path().join(format!("{name}.part"));
             fs::create_dir(&obstacle).unwrap();
             let error = directory
@@ -498,17 +497,5 @@ mod tests {
             .unwrap_err();
         assert!(error.to_string().starts_with(message), "{error}");
         assert_eq!(names(folder.path()), [LOCK, MANIFEST]);
-    }
-
-    fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-        let folders = [folder.to_owned(), folder.join(PICTURES)];
-        let entries = folders.iter().flat_map(|f| fs::read_dir(f).unwrap());
-        let paths = entries.map(|entry| entry.unwrap().path());
-        let mut all: Vec<_> = paths
-            .filter(|path| path.is_file())
-            .map(|path| (path.clone(), fs::read(path).unwrap()))
-            .collect();
-        all.sort();
-        all
     }
 }

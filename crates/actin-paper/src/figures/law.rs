@@ -1,7 +1,6 @@
 //! Rods compared with filaments of monomers in the load cases of `cargo xtask load-cases`.
 
 use super::draft::{Column, Draft, number, text};
-use super::surface;
 use crate::load_cases;
 use actin_draw::report::{Picture, Row};
 
@@ -34,7 +33,7 @@ pub(super) fn law(draft: &mut Draft<'_>) -> Result<(), String> {
         caption: "Errors of the rod relative to the mean filament, divided by their bounds."
             .to_owned(),
     });
-    surface::draw(draft)
+    Ok(())
 }
 
 /// Replaces each run of characters other than letters, digits, signs and points by a dash.

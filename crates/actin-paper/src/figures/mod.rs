@@ -19,7 +19,6 @@ mod page;
 mod print;
 mod progress;
 mod schematics;
-mod surface;
 mod tables;
 mod texts;
 mod twist_fits;

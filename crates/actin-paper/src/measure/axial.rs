@@ -1,13 +1,11 @@
-//! Protocols along the axis: twist, stretch at blocked turn, and twist under axial force.
+//! Protocols along the axis: twist, and stretch at blocked turn.
 
 use super::follow::{Evidence, PathPoint};
-use super::sweep::{
-    Curve, MissingEquilibrium, Protocol, check, check_finite, far_end_shift, force, reaction,
-};
+use super::sweep::{Curve, Protocol, far_end_shift, force, reaction};
 use super::{MeasureError, Specimen};
 use crate::run::{shift, turn};
 use actin_mechanics::Vector3;
-use actin_sim::{Assembly, End, FreeTranslation, Setting};
+use actin_sim::{Assembly, End, FreeTranslation};
 
 /// A filament held at an angle of twist with free length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -124,133 +122,4 @@ fn read_stretch(assembly: &Assembly, force_pn: f64, stop: &PathPoint) -> Stretch
         torque_pn_nm: reaction(assembly, &stop.state, End::End).torque_pn_nm.z,
         evidence: stop.evidence,
     }
-}
-
-/// Tolerance on the torque at a free end, relative to the torque at turn 0.
-const COUPLE_LEFT: f64 = 1e-4;
-/// Limit on the number of equilibria in the search for the torque-free turn at one force.
-const TRIALS: usize = 60;
-/// First step of the search (deg); it doubles until the torque changes sign.
-const FIRST_STEP_DEG: f64 = 0.25;
-
-/// A filament under axial force, twisted or free to turn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PulledTwistPoint {
-    /// Axial force on the far end (pN), positive in tension.
-    pub force_pn: f64,
-    /// Turn, torque and change of length relative to the unloaded filament at rest.
-    pub twist: TwistPoint,
-}
-
-/// Turns the far end about the axis by each angle (deg) under an axial force (pN, positive in
-/// tension). The far end slides along the axis.
-///
-/// For an energy `U(strain, kappa_3)` per length, the torque is `dU / d kappa_3` at the strain of
-/// the force. With `U = int B3 k dk + S3 (strain - xi + 1)^2 / 2` it is `B3 kappa_3 - F d xi / d
-/// kappa_3`: the force adds the torque of twist-stretch coupling.
-///
-/// # Errors
-/// An invalid filament, an angle that is zero or not finite, or a force that is not finite.
-pub fn twist_under_tension(
-    specimen: &Specimen,
-    force_pn: f64,
-    turns_deg: &[f64],
-) -> Result<Curve<PulledTwistPoint>, MeasureError> {
-    check_finite("force_pn", force_pn)?;
-    let settings = |turn: f64| controls(force_pn, turn);
-    pulled(specimen).sweep("turn_deg", turns_deg, settings, |assembly, turn, stop| {
-        let twist = read_twist(assembly, turn, stop);
-        PulledTwistPoint { force_pn, twist }
-    })
-}
-
-/// Pulls the far end along the axis with each force (pN) and turns it until its torque is below
-/// 1e-4 of the blocking torque.
-///
-/// The torque of monomers in compression can jump across zero between two equilibria. The force is
-/// then reported as unreached.
-///
-/// # Errors
-/// An invalid filament, or a force that is zero or not finite.
-pub fn free_turn_under_tension(
-    specimen: &Specimen,
-    forces_pn: &[f64],
-) -> Result<Curve<PulledTwistPoint>, MeasureError> {
-    check("force_pn", forces_pn)?;
-    let mut all = Curve::empty();
-    for &force_pn in forces_pn {
-        all.append(free_turn(specimen, force_pn)?);
-    }
-    Ok(all)
-}
-
-/// Brackets the zero of the torque from turn 0 by growing steps, then applies false position with
-/// halved weight of a retained end (Illinois algorithm).
-fn free_turn(specimen: &Specimen, force_pn: f64) -> Result<Curve<PulledTwistPoint>, MeasureError> {
-    let mut curve = held(specimen, force_pn, 0.0)?;
-    let Some(blocked) = curve.points.first().map(couple) else {
-        return Ok(curve);
-    };
-    // Turn (deg) and torque (pN nm) on both sides of the zero; the second one is the latest.
-    let (mut from, mut to) = ((0.0, blocked), None::<(f64, f64)>);
-    let mut here = from;
-    let mut turn = -FIRST_STEP_DEG * blocked.signum();
-    for _ in 0..TRIALS {
-        curve = held(specimen, force_pn, turn)?;
-        let left = match curve.points.first().map(couple) {
-            Some(left) if left.abs() > COUPLE_LEFT * blocked.abs() => left,
-            _ => return Ok(curve),
-        };
-        here = (turn, left);
-        let is_before_zero = to.is_none() && left * from.1 > 0.0;
-        match to {
-            Some(last) if left * last.1 < 0.0 => from = last,
-            Some(_) => from.1 *= 0.5,
-            None if is_before_zero => from = here,
-            None => {}
-        }
-        if is_before_zero {
-            turn *= 2.0;
-        } else {
-            turn -= left * (turn - from.0) / (left - from.1);
-            to = Some(here);
-        }
-    }
-    curve.points.clear();
-    // A torque that jumps across zero has several equilibria and no root.
-    let (turn, left) = here;
-    let reason = format!("a torque of {left} pN nm remains at {turn} deg after {TRIALS} trials");
-    let value = force_pn;
-    curve.unreached.push(MissingEquilibrium { value, reason });
-    Ok(curve)
-}
-
-fn couple(point: &PulledTwistPoint) -> f64 {
-    point.twist.torque_pn_nm
-}
-
-/// Equilibrium at a force and a turn; the secant rigidity is NaN at turn 0.
-fn held(
-    specimen: &Specimen,
-    force_pn: f64,
-    turn_deg: f64,
-) -> Result<Curve<PulledTwistPoint>, MeasureError> {
-    let settings = |force_pn| controls(force_pn, turn_deg);
-    pulled(specimen).along(&[force_pn], settings, |assembly, force_pn, stop| {
-        let twist = read_twist(assembly, turn_deg, stop);
-        PulledTwistPoint { force_pn, twist }
-    })
-}
-
-fn pulled(specimen: &Specimen) -> Protocol<'_> {
-    Protocol::new(
-        specimen,
-        Some(FreeTranslation::AlongAxis),
-        Some(Vector3::z()),
-    )
-}
-
-/// Axial force (pN) and turn (deg) of the far end.
-fn controls(force_pn: f64, turn_deg: f64) -> Vec<Setting> {
-    vec![force(force_pn), turn(End::End, [0.0, 0.0, turn_deg])]
 }

@@ -5,24 +5,11 @@ use super::{MeasureError, Specimen};
 use crate::statistics::SampleStatistics;
 use rayon::prelude::*;
 
-/// Measures specimens that differ only in the seed of their bonds, in parallel. Results are in the
-/// order of the seeds.
+/// Measures every sampling at each azimuth (deg) of a transverse load, in parallel. Results are in
+/// the order of the seeds; results of one sampling are contiguous.
 ///
 /// # Errors
 /// The first error of `measure` in the order of the seeds. Quadrature bonds accept only seed 0.
-pub fn over_samplings<T: Send>(
-    specimen: &Specimen,
-    seeds: &[u64],
-    measure: impl Fn(&Specimen) -> Result<T, MeasureError> + Sync,
-) -> Result<Vec<T>, MeasureError> {
-    over_samplings_and_azimuths(specimen, seeds, &[0.0], |sampling, _| measure(sampling))
-}
-
-/// Measures every sampling at each azimuth (deg) of a transverse load, in parallel. Results of one
-/// sampling are contiguous.
-///
-/// # Errors
-/// The first error of `measure`, in the order of the seeds.
 pub fn over_samplings_and_azimuths<T: Send>(
     specimen: &Specimen,
     seeds: &[u64],

@@ -3,8 +3,8 @@
 //! A [`Specimen`] is a filament of any resolution and parameters. A protocol holds its ends and
 //! prescribes angles, strains or forces. An end of monomers is held by its last two monomers; at
 //! the far end they move as one rigid body. The result is a [`Curve`] with raw values, secant
-//! rigidity and certificate of each equilibrium. [`over_samplings`] measures many samplings of the
-//! bonds, and [`sampled_by`] averages their curves.
+//! rigidity and certificate of each equilibrium. [`over_samplings_and_azimuths`] measures many samplings
+//! of the bonds, and [`sampled_by`] averages their curves.
 //!
 //! | protocol | held | moved | reads |
 //! |---|---|---|---|
@@ -14,9 +14,6 @@
 //! | [`bend_by_tip_force`] | the near end | transverse force at the free tip | `B = F L^3 / 3 d`, elastica |
 //! | [`bend_by_couples`] | both ends in orientation, the far one slides freely | turn across the axis | `B = M / kappa` |
 //! | [`bend_twisted`] | both ends in orientation, the far one slides freely | turn about the axis, then across it | `B = M_perp / kappa_perp` |
-//! | [`bend_under_tension`] | the same, pulled along the axis | both ends, turned half each | couple, `B` |
-//! | [`twist_under_tension`] | as `twist`, pulled along the axis | turn about the axis | couple, `dL / L` |
-//! | [`free_turn_under_tension`] | the same | turn until no couple is left | turn, `dL / L` |
 //! | [`shear_by_force`] | both ends in orientation, the far one slides freely | transverse force | `F / gamma` |
 //!
 //! [`RotationCorrelations`] averages the relative rotations of cross-sections of a filament in a heat bath.
@@ -45,12 +42,9 @@ mod transverse;
 
 pub use crate::statistics::SampleStatistics;
 pub use actin_equilibrium::{Certificate, Stability};
-pub use axial::{
-    PulledTwistPoint, StretchPoint, TwistPoint, free_turn_under_tension, stretch_by_force,
-    stretch_by_shift, twist, twist_under_tension,
-};
+pub use axial::{StretchPoint, TwistPoint, stretch_by_force, stretch_by_shift, twist};
 pub use elastica::elastica_deflection;
-pub use ensemble::{over_samplings, over_samplings_and_azimuths, sampled_by};
+pub use ensemble::{over_samplings_and_azimuths, sampled_by};
 pub use error::MeasureError;
 pub use follow::Evidence;
 pub(crate) use follow::follow;
@@ -60,8 +54,8 @@ pub use specimen::Specimen;
 pub use sweep::{Curve, MissingEquilibrium};
 pub(crate) use sweep::{far_end_shift, reaction};
 pub use transverse::{
-    CouplePoint, HelixPoint, PulledBendPoint, ShearPoint, TipForcePoint, bend_by_couples,
-    bend_by_tip_force, bend_twisted, bend_under_tension, shear_by_force,
+    CouplePoint, HelixPoint, ShearPoint, TipForcePoint, bend_by_couples, bend_by_tip_force,
+    bend_twisted, shear_by_force,
 };
 
 #[cfg(test)]

@@ -71,7 +71,11 @@ impl<'a> Protocol<'a> {
         check(name, values)?;
         let (positive, negative): (Vec<f64>, Vec<f64>) =
             values.iter().partition(|value| **value > 0.0);
-        let mut curve = Curve::empty();
+        let mut curve = Curve {
+            length_nm: 0.0,
+            points: Vec::new(),
+            unreached: Vec::new(),
+        };
         for mut values in [negative, positive] {
             if values.is_empty() {
                 continue;
@@ -81,13 +85,15 @@ impl<'a> Protocol<'a> {
             if values[0] < 0.0 {
                 next.points.reverse();
             }
-            curve.append(next);
+            curve.length_nm = next.length_nm;
+            curve.points.append(&mut next.points);
+            curve.unreached.append(&mut next.unreached);
         }
         Ok(curve)
     }
 
     /// Measures at `values` along one path, in the given order.
-    pub(super) fn along<P>(
+    fn along<P>(
         &self,
         values: &[f64],
         settings: impl Fn(f64) -> Vec<Setting>,
@@ -112,29 +118,12 @@ impl<'a> Protocol<'a> {
     }
 }
 
-impl<P> Curve<P> {
-    pub(super) fn empty() -> Self {
-        Self {
-            length_nm: 0.0,
-            points: Vec::new(),
-            unreached: Vec::new(),
-        }
-    }
-
-    /// Appends the points and unreached values of a curve of the same specimen.
-    pub(super) fn append(&mut self, mut next: Self) {
-        self.length_nm = next.length_nm;
-        self.points.append(&mut next.points);
-        self.unreached.append(&mut next.unreached);
-    }
-}
-
 /// Setting of the force of a protocol (pN).
 pub(super) fn force(factor: f64) -> Setting {
     Setting::LoadFactor { load: 0, factor }
 }
 
-pub(super) fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureError> {
+fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureError> {
     let bad = values.iter().find(|v| !v.is_finite() || **v == 0.0);
     let (value, rule) = match bad {
         Some(&value) => (

@@ -306,7 +306,9 @@ fn twelve_quadrature_bonds_equal_thousands_of_sampled_bonds() {
 fn weighted_bonds_have_no_samplings() {
     let monomers = Monomers::default();
     let specimen = Specimen::ellipsoids(9.0 * monomers.rise_nm, monomers);
-    let measured = over_samplings(&specimen, &[0, 1], |s| stretch_by_force(s, &[10.0]));
+    let measured = over_samplings_and_azimuths(&specimen, &[0, 1], &[0.0], |s, _| {
+        stretch_by_force(s, &[10.0])
+    });
     let message = measured.unwrap_err().to_string();
     assert!(
         message.contains("quadrature bonds are not sampled"),

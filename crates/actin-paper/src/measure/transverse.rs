@@ -1,8 +1,8 @@
-//! Protocols across the axis: bending by a tip force or by couples, also under twist or axial force, and shear.
+//! Protocols across the axis: bending by a tip force or by couples, also under twist, and shear.
 
 use super::elastica::rigidity_ratio;
 use super::follow::{Evidence, PathPoint};
-use super::sweep::{Curve, Protocol, across, check, check_finite, far_end_shift, force, reaction};
+use super::sweep::{Curve, Protocol, across, check_finite, far_end_shift, force, reaction};
 use super::{MeasureError, Specimen};
 use crate::run::turn;
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
@@ -250,80 +250,4 @@ fn composed(tilt: Vector3, twist: Vector3) -> Vector3 {
     let unit = vector / angle;
     let turns = ((twist.dot(&unit) - angle) / TAU).round();
     unit * (angle + TAU * turns)
-}
-
-/// A filament bent by end couples under axial force.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PulledBendPoint {
-    /// Axial force on the far end (pN), positive in tension.
-    pub force_pn: f64,
-    /// Relative rotation of the ends over length at rest (rad/nm).
-    pub curvature_rad_per_nm: f64,
-    /// Couple about the bending axis at the far end (pN nm).
-    pub couple_pn_nm: f64,
-    /// Secant bending rigidity (pN nm^2) for small bending under tension.
-    pub rigidity_pn_nm2: f64,
-    /// Quality of the equilibrium.
-    pub evidence: Evidence,
-}
-
-/// Rotates the ends by `kappa L / 2` in opposite senses for each curvature (rad/nm), about the
-/// transverse axis at an azimuth (deg, from lab x). A force (pN) pulls the freely sliding far end
-/// along the undeformed axis.
-///
-/// The end couple is `M = B kappa x / tanh x` with `x = (L / 2) sqrt(F / B)`, for small angles and
-/// without shear (`tan` in compression). `B` is the solution of this equation. The force acts on a
-/// monomer off the axis and adds a couple that is even in the curvature: average over both signs or
-/// over opposite azimuths.
-///
-/// # Errors
-/// An invalid filament, a curvature that is zero or not finite, or a force that is not finite.
-pub fn bend_under_tension(
-    specimen: &Specimen,
-    force_pn: f64,
-    curvatures_rad_per_nm: &[f64],
-    azimuth_deg: f64,
-) -> Result<Curve<PulledBendPoint>, MeasureError> {
-    check_finite("force_pn", force_pn)?;
-    check("curvature_rad_per_nm", curvatures_rad_per_nm)?;
-    let axis = across(azimuth_deg);
-    let protocol = Protocol::new(specimen, Some(FreeTranslation::Freely), Some(Vector3::z()));
-    let length = protocol.length_nm()?;
-    let settings = |kappa: f64| {
-        let half = (axis * (0.5 * kappa * length)).map(f64::to_degrees);
-        let turns = [turn(End::Start, -half), turn(End::End, half)];
-        [vec![force(force_pn)], turns.into()].concat()
-    };
-    let read = |assembly: &Assembly, curvature: f64, stop: &PathPoint| {
-        let couple = reaction(assembly, &stop.state, End::End)
-            .torque_pn_nm
-            .dot(&axis);
-        PulledBendPoint {
-            force_pn,
-            curvature_rad_per_nm: curvature,
-            couple_pn_nm: couple,
-            rigidity_pn_nm2: pulled_rigidity(couple / curvature, force_pn, length),
-            evidence: stop.evidence,
-        }
-    };
-    let name = "curvature_rad_per_nm";
-    protocol.sweep(name, curvatures_rad_per_nm, settings, read)
-}
-
-/// Solves `secant = B x / tanh x` with `x = (L / 2) sqrt(F / B)` for `B` by fixed-point iteration.
-fn pulled_rigidity(secant: f64, force: f64, length: f64) -> f64 {
-    let mut rigidity = secant;
-    for _ in 0..200 {
-        let square = 0.25 * length * length * force / rigidity;
-        let x = square.abs().sqrt();
-        let ratio = if x < 1e-6 {
-            1.0
-        } else if square > 0.0 {
-            x / x.tanh()
-        } else {
-            x / x.tan()
-        };
-        rigidity = 0.5 * (rigidity + secant / ratio);
-    }
-    rigidity
 }

@@ -3,8 +3,7 @@
 use super::row::Outcome;
 use actin_mechanics::{System, Vector3};
 use actin_sim::{
-    Assembly, End, Failure, Load, Plan, RunError, Scene, SceneError, SceneProblem, Status,
-    Trajectory,
+    Assembly, End, Failure, Load, Plan, RunError, Scene, SceneError, Status, Trajectory,
 };
 
 #[derive(Clone, Debug, Default)]
@@ -74,7 +73,7 @@ impl Parts {
     }
 
     pub(super) fn build(&self) -> Result<Assembly, Outcome> {
-        build(&self.text())
+        Ok(build(&self.text())?)
     }
 
     pub(super) fn run(&self) -> Result<CompletedRun, Outcome> {
@@ -93,9 +92,9 @@ pub(super) struct CompletedRun {
     pub(super) trajectory: Trajectory,
 }
 
-pub(super) fn build(text: &str) -> Result<Assembly, Outcome> {
-    let scene = Scene::from_ron(text).map_err(|error| Outcome::Refused(error.to_string()))?;
-    actin_sim::build(&scene).map_err(|problem| refused(&problem, text))
+pub(super) fn build(text: &str) -> Result<Assembly, SceneError> {
+    let scene = Scene::from_ron(text)?;
+    actin_sim::build(&scene).map_err(|problem| SceneError::locate(&problem, text))
 }
 
 pub(super) fn run(text: &str) -> Result<CompletedRun, Outcome> {
@@ -109,13 +108,14 @@ pub(super) fn run(text: &str) -> Result<CompletedRun, Outcome> {
 pub(super) fn run_to_saddle(text: &str) -> Result<CompletedRun, Outcome> {
     let mut assembly = build(text)?;
     let mut trajectory = Trajectory::default();
-    let plan = Plan::new(&assembly).map_err(|problem| refused(&problem, text))?;
+    let refused = |problem| SceneError::locate(&problem, text);
+    let plan = Plan::new(&assembly).map_err(refused)?;
     let report = match plan.run_into(&mut trajectory) {
         Ok(report) => report,
         Err(RunError::Failed(failed)) if matches!(failed.failure, Failure::Saddle(_)) => {
             failed.outcome
         }
-        Err(RunError::Refused(problem)) => return Err(refused(&problem, text)),
+        Err(RunError::Refused(problem)) => return Err(refused(problem).into()),
         Err(error) => return Err(Outcome::Fails(error.to_string())),
     };
     let last = trajectory.records.last().expect("a run has records");
@@ -127,8 +127,10 @@ pub(super) fn run_to_saddle(text: &str) -> Result<CompletedRun, Outcome> {
     })
 }
 
-fn refused(problem: &SceneProblem, text: &str) -> Outcome {
-    Outcome::Refused(SceneError::locate(problem, text).to_string())
+impl From<SceneError> for Outcome {
+    fn from(error: SceneError) -> Self {
+        Self::Refused(error.to_string())
+    }
 }
 
 impl CompletedRun {

@@ -1,6 +1,6 @@
 //! Filaments with very few and very many bodies, scenes that exceed the memory, and a filament far from the origin.
 
-use super::fields::{Verdict, verdict};
+use super::fields::run_short;
 use super::row::{CaseResult, Expected, Outcome, Row, correct, larger};
 use super::scenes::{Parts, build};
 use actin_integrate::{Drag, PEFRL, advance};
@@ -149,10 +149,8 @@ pub(super) fn guards() -> Vec<Row> {
                     task: {task})"
         );
         let clock = Instant::now();
-        let outcome = match verdict(&text) {
-            Verdict::Refused(error) if clock.elapsed().as_secs_f64() < PATIENCE_S => {
-                Outcome::Refused(error.to_string())
-            }
+        let outcome = match run_short(&text) {
+            Err(error) if clock.elapsed().as_secs_f64() < PATIENCE_S => error.into(),
             other => Outcome::Wrong(format!("{other:?} after {:?}", clock.elapsed())),
         };
         Row::new("guard", case, Ok(outcome)).expecting(Expected::Refused)

@@ -240,27 +240,3 @@ pub(super) fn draw(out: &Path) -> Result<(), String> {
     };
     chart.draw(&out.join("extremes-energy.svg"))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn energy_fluctuates_with_the_order_of_the_method() {
-        for (model, sections) in MODELS {
-            let mut system = free(sections).unwrap();
-            let coarse = SHARES[4];
-            let [pefrl, vefrl] = [1, 2].map(|i| {
-                let of = |s| energy_error(&mut system, INTEGRATORS[i], s);
-                let [a, b] = [coarse, coarse / 3.0].map(of);
-                println!("{model}: {a:e} and {b:e}");
-                (a / b).log(3.0)
-            });
-            // The next order contributes, and the largest of 100 samples scatters.
-            assert!(
-                pefrl > 3.0 && vefrl > 3.0,
-                "{model}: orders {pefrl} and {vefrl}"
-            );
-        }
-    }
-}

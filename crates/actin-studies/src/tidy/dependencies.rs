@@ -1,135 +1,49 @@
-//! The direction of dependencies between the crates of this workspace.
+//! The direction of dependencies between the crates of this workspace, a table of `docs/architecture.md`.
 
 use cargo_metadata::{DependencyKind, MetadataCommand};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Each crate with the crates of the workspace that it may depend on.
-const ALLOWED: [(&str, &[&str]); 21] = [
-    ("actin-mechanics", &[]),
-    ("actin-ellipsoid", &["actin-mechanics"]),
-    ("actin-cosserat", &["actin-mechanics"]),
-    ("actin-coupling", &["actin-mechanics", "actin-cosserat"]),
-    ("actin-integrate", &["actin-mechanics"]),
-    ("actin-equilibrium", &["actin-mechanics"]),
-    // Time steps use the run loop of other integrators and the stiffness of statics.
-    (
-        "actin-brownian",
-        &["actin-mechanics", "actin-integrate", "actin-equilibrium"],
-    ),
-    ("actin-fit", &[]),
-    ("actin-draw", &[]),
-    (
-        "actin-scene",
-        &[
-            "actin-mechanics",
-            "actin-cosserat",
-            "actin-ellipsoid",
-            "actin-coupling",
-        ],
-    ),
-    (
-        "actin-assembly",
-        &[
-            "actin-mechanics",
-            "actin-scene",
-            "actin-ellipsoid",
-            "actin-cosserat",
-            "actin-coupling",
-            "actin-integrate",
-            "actin-brownian",
-        ],
-    ),
-    (
-        "actin-sim",
-        &[
-            "actin-mechanics",
-            "actin-assembly",
-            "actin-scene",
-            "actin-ellipsoid",
-            "actin-cosserat",
-            "actin-coupling",
-            "actin-integrate",
-            "actin-equilibrium",
-            "actin-brownian",
-        ],
-    ),
-    (
-        "actin-paper",
-        &[
-            "actin-mechanics",
-            "actin-cosserat",
-            "actin-integrate",
-            "actin-equilibrium",
-            "actin-fit",
-            "actin-sim",
-            "actin-draw",
-            "actin-view",
-        ],
-    ),
-    ("actin-export", &["actin-sim"]),
-    ("actin-rundir", &["actin-sim", "actin-export"]),
-    ("actin-view", &["actin-sim", "actin-rundir", "actin-draw"]),
-    ("actin-sweep", &["actin-sim", "actin-rundir"]),
-    (
-        "actin-cli",
-        &["actin-sim", "actin-rundir", "actin-sweep", "actin-view"],
-    ),
-    (
-        "actin-python",
-        &[
-            "actin-mechanics",
-            "actin-cosserat",
-            "actin-coupling",
-            "actin-brownian",
-            "actin-integrate",
-            "actin-equilibrium",
-            "actin-export",
-            "actin-fit",
-            "actin-sim",
-            "actin-rundir",
-            "actin-sweep",
-            "actin-view",
-        ],
-    ),
-    ("xtask", &[]),
-    // Laws and their fits for the origin of committed numbers, scenes for the reference of their keys.
-    (
-        "actin-studies",
-        &[
-            "actin-cosserat",
-            "actin-draw",
-            "actin-fit",
-            "actin-integrate",
-            "actin-mechanics",
-            "actin-paper",
-            "actin-rundir",
-            "actin-sim",
-            "actin-sweep",
-            "actin-view",
-        ],
-    ),
-];
+/// Direct and indirect dependencies by crate. Rows may only use crates of earlier rows.
+fn allowed(page: &str) -> BTreeMap<&str, BTreeSet<&str>> {
+    let lines = page.lines();
+    let table = lines.skip_while(|line| *line != "| crate | depends on |");
+    let rows = table.skip(2);
+    let cells = rows.map_while(|row| row.trim_matches(['|', ' ']).split_once(" | "));
+    let mut all = BTreeMap::<&str, BTreeSet<&str>>::new();
+    for (crates, direct) in cells {
+        let known = |name| all.get(name).into_iter().flatten().copied().chain([name]);
+        let reached: BTreeSet<&str> = direct.split(", ").flat_map(known).collect();
+        all.extend(crates.split(", ").map(|name| (name, reached.clone())));
+    }
+    all
+}
+
+fn short(name: &str) -> &str {
+    name.trim_start_matches("actin-")
+}
 
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
-    let manifest = root.join("Cargo.toml");
+    let page = super::read(&root.join("docs/architecture.md"))?;
+    let allowed = allowed(&page);
     let metadata = MetadataCommand::new()
-        .manifest_path(manifest)
+        .manifest_path(root.join("Cargo.toml"))
         .no_deps()
         .exec()
         .map_err(|error| error.to_string())?;
     let mut all = Vec::new();
     for package in &metadata.packages {
-        let name = package.name.as_str();
-        let Some((_, allowed)) = ALLOWED.iter().find(|(known, _)| *known == name) else {
+        let name = short(&package.name);
+        let Some(allowed) = allowed.get(name) else {
             all.push(format!(
-                "{name}: list its allowed dependencies in tidy/dependencies.rs"
+                "docs/architecture.md: list the dependencies of {name}"
             ));
             continue;
         };
         let normal = package.dependencies.iter();
         let ours = normal
             .filter(|d| d.kind == DependencyKind::Normal && d.path.is_some())
-            .filter(|d| !allowed.contains(&d.name.as_str()));
+            .filter(|d| !allowed.contains(short(&d.name)));
         all.extend(ours.map(|d| format!("{name} must not depend on {}", d.name)));
     }
     Ok(all)
