@@ -4,8 +4,8 @@ use super::filaments::{FILAMENTS, Filament, KBT, degrees_of_freedom, distances, 
 use super::record::scientific;
 use crate::common::ran;
 use actin_integrate::{
-    Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, advance,
-    largest_frequency,
+    Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, VELOCITY_VERLET,
+    advance, largest_frequency,
 };
 use actin_mechanics::State;
 
@@ -48,6 +48,7 @@ fn every_method_has_its_order_on_every_filament() {
         // step.
         for (scheme, fraction) in [
             (POSITION_VERLET, 16),
+            (VELOCITY_VERLET, 16),
             (PEFRL, 4),
             (VEFRL, 4),
             (FOREST_RUTH, 8),
