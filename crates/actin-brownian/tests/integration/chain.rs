@@ -1,6 +1,6 @@
 use crate::common;
 use actin_brownian::mechanics::{PointLoad, Vector3, rotation};
-use common::{advance, free_rod, rigidities, tip};
+use common::{advance, free_rod, mean_and_error, rigidities, tip};
 
 const KT: f64 = 4.11;
 const BLOCKS: u64 = 20;
@@ -138,13 +138,6 @@ fn gauss_legendre() -> Vec<(f64, f64)> {
         (c, 2.0 / ((1.0 - c * c) * slope * slope))
     };
     (0..PLACES).map(root).collect()
-}
-
-fn mean_and_error(values: &[f64]) -> (f64, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let squares: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
-    (mean, (squares / (n - 1.0) / n).sqrt())
 }
 
 /// The extension at 2 pN agrees within three standard errors.
