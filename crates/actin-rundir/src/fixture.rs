@@ -1,4 +1,4 @@
-//! Small mixed filaments and synthetic runs for tests.
+//! Small mixed filaments and synthetic runs for tests of this crate and of summaries in `actin-sim`.
 
 use actin_sim::mechanics::{Xorshift, perturb, randomise_velocities};
 use actin_sim::{Assembly, At, Outcome, Record, Scene, Status, Trajectory};
