@@ -1,7 +1,6 @@
 //! Interrupted and resumed runs, and damaged files.
 
 mod common;
-mod cost;
 mod damaged;
 mod disk;
 mod extended;

@@ -119,25 +119,6 @@ fn slow_motion_keeps_its_energy() {
     }
 }
 
-/// Rows of the tables of `docs/measured/motion.md` beyond the levels with a bound.
-#[test]
-#[ignore = "prints measurements; run by hand with --ignored --nocapture"]
-fn rows_of_the_tables_without_a_bound() {
-    for filament in [ELLIPSOIDS, MIXED] {
-        heated(filament, 0.01, 0.9);
-        heated(filament, 0.1, 0.5);
-    }
-    let slower = [
-        (ROD, 300.0),
-        (ELLIPSOIDS, 1e-5),
-        (MIXED, 1e-4),
-        (ROD_AT_BOTH_ENDS, 1e-4),
-    ];
-    for (filament, level) in slower {
-        slow(filament, level, 0.5, STEPS);
-    }
-}
-
 /// At ten times this level the energy loss is the integrator error of the fast modes, a sixteenth
 /// at half the step.
 #[test]

@@ -1,5 +1,6 @@
 //! Energy balance of motions with moving ends and loads, drag and heat.
 
+use super::filaments::mean_and_error;
 use actin_sim::{Assembly, Plan, Record, Scene, Summary, Task};
 use std::f64::consts::TAU;
 
@@ -145,9 +146,7 @@ fn overdamped_motion_in_a_bath_records_work() {
     };
     let cold = of(0.0, 0).work_pn_nm;
     let warm: Vec<f64> = (0..16).map(|seed| of(298.0, seed).work_pn_nm).collect();
-    let mean = warm.iter().sum::<f64>() / 16.0;
-    let variance = warm.iter().map(|w| (w - mean).powi(2)).sum::<f64>() / 15.0;
-    let error = (variance / 16.0).sqrt();
+    let (mean, error) = mean_and_error(&warm);
     println!("work {cold:.2}, in a bath {mean:.2} +- {error:.2} pN nm");
     assert!((mean - cold).abs() < 3.0 * error && error < 0.2 * cold);
     assert!(of(298.0, 0).heat_pn_nm == 0.0 && of(0.0, 0).heat_pn_nm < -0.01 * cold);

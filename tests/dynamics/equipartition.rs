@@ -15,18 +15,18 @@ use actin_sim::{Assembly, Scene};
 /// Time between samples (ns): a period of the slowest modes of this short filament.
 const APART_NS: f64 = 0.05;
 const ERRORS: f64 = 4.5;
+/// Drag (per ns).
+const RATE: f64 = 5.0;
 
-fn monomers(bonds: usize) -> System {
-    let text = format!(
-        "Scene(
+fn monomers() -> System {
+    let text = "Scene(
             filament: Filament(
                 sections: [Ellipsoids(from_nm: 0.0, to_nm: 35.6)],
-                monomers: (anchors: Independent, seed: 1, lateral_bonds: {bonds}, longitudinal_bonds: {bonds}),
+                monomers: (anchors: Independent, seed: 1, lateral_bonds: 16, longitudinal_bonds: 16),
             ),
             task: Dynamics(duration_ns: 1.0),
-        )"
-    );
-    let scene = Scene::from_ron(&text).unwrap();
+        )";
+    let scene = Scene::from_ron(text).unwrap();
     Assembly::build(&scene).unwrap().system
 }
 
@@ -117,23 +117,16 @@ fn steps(h: f64, time: f64) -> u64 {
     Run::from_duration(&PEFRL, h, time).unwrap().steps()
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Case {
-    bonds: usize,
-    share: f64,
-    rate: f64,
-}
-
-fn sample(case: Case, blocks: usize, samples: usize, seed: u64) -> Blocks {
-    let mut system = monomers(case.bonds);
+fn sample(blocks: usize, samples: usize, seed: u64) -> Blocks {
+    let mut system = monomers();
     let frequency = largest_frequency(&system).unwrap();
-    let h = stable_step(&PEFRL, frequency, case.share).unwrap();
-    let drag = Drag::new(case.rate, case.rate).unwrap();
+    let h = stable_step(&PEFRL, frequency, SAFETY).unwrap();
+    let drag = Drag::new(RATE, RATE).unwrap();
     let bath = Bath::new(drag, KBT, seed).unwrap();
     let mut thermometer = Thermometer::new(system.state());
     let apart = steps(h, APART_NS);
     // Until correlations with the initial state fall to exp(-10).
-    let mut now = steps(h, 10.0 / case.rate);
+    let mut now = steps(h, 10.0 / RATE);
     advance_in(&mut system, &PEFRL, h, now, &bath, 0);
     let mut all: Blocks = Default::default();
     for _ in 0..blocks {
@@ -164,36 +157,11 @@ const FIELDS: [&str; 2] = ["all motions alike", "weighted by frequency squared"]
 /// At the default step the configurational temperature is within 1 % of the bath.
 #[test]
 fn monomers_have_the_temperature_at_their_default_step() {
-    let case = Case {
-        bonds: 16,
-        share: SAFETY,
-        rate: 5.0,
-    };
-    let all = sample(case, 40, 60, 5);
+    let all = sample(40, 60, 5);
     for (what, blocks) in FIELDS.iter().zip(&all) {
         let (mean, error) = ratio(blocks);
         println!("{what}: {mean:.4} +- {error:.4}");
         assert!((mean - 1.0).abs() < 0.01 + ERRORS * error, "{what}");
         assert!(error < 0.015, "{what}: {error}");
-    }
-}
-
-/// Prints the table of temperatures in `docs/measured/heat.md`.
-#[test]
-#[ignore = "takes half an hour; run by hand with --ignored --nocapture"]
-fn temperatures_of_positions_at_shares_of_the_limit() {
-    for bonds in [64, 16] {
-        for rate in [5.0, 0.1] {
-            for share in [1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0] {
-                let case = Case { bonds, share, rate };
-                let all = sample(case, 60, 600, 11);
-                let words = FIELDS.iter().zip(&all).map(|(what, blocks)| {
-                    let (mean, error) = ratio(blocks);
-                    format!("{what} {mean:.4} +- {error:.4}")
-                });
-                let words: Vec<_> = words.collect();
-                println!("{case:?}: {}", words.join(", "));
-            }
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! Free filaments of these tests and their initial motion.
 
-use actin_integrate::{Composition, largest_frequency, stable_step};
+use actin_integrate::{Composition, Drag, advance, largest_frequency, stable_step};
 use actin_mechanics::{State, System, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 use actin_sim::{Assembly, ForceLaw, Scene};
@@ -165,6 +165,38 @@ pub(crate) fn distances(a: &State, b: &State) -> [f64; 4] {
         largest(&mut (0..a.frames.len()).map(turn)),
         of(&a.frames.angular_momentum, &b.frames.angular_momentum),
     ]
+}
+
+/// Mean of independent values and its standard error.
+pub(crate) fn mean_and_error(values: &[f64]) -> (f64, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let squares: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
+    (mean, (squares / (n - 1.0) / n).sqrt())
+}
+
+/// Duration of flights (ns): 50 to 90 radians of the fastest mode.
+const FLIGHT: f64 = 0.1;
+
+/// Steps of a flight in which the fastest mode, of frequency `omega` (rad/ns), advances by 1 rad.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "frequencies are a few hundred per ns, so this is a positive number below 100"
+)]
+pub(crate) fn steps_of_one_radian(omega: f64) -> u32 {
+    (omega * FLIGHT).ceil() as u32
+}
+
+pub(crate) fn state_after(mut system: System, scheme: &Composition, steps: u32) -> State {
+    let h = FLIGHT / f64::from(steps);
+    advance(&mut system, scheme, h, steps.into(), &Drag::NONE);
+    system.state().clone()
+}
+
+/// Orders of convergence of the four [`distances`] between `coarse` and `fine` at half the step.
+pub(crate) fn orders(coarse: [f64; 4], fine: [f64; 4]) -> [f64; 4] {
+    std::array::from_fn(|k| (coarse[k] / fine[k]).log2())
 }
 
 /// Time step at a share of the stability limit.

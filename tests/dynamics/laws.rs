@@ -1,11 +1,13 @@
 //! Motion of rods under nonconstant laws: order and energy. Every state is twisted and
 //! stretched.
 
-use super::filaments::{Filament, MIXED, ROD, ROD_AT_BOTH_ENDS, assemble_of, distances, fly_off};
+use super::filaments::{
+    Filament, MIXED, ROD, ROD_AT_BOTH_ENDS, assemble_of, distances, fly_off, orders, state_after,
+    steps_of_one_radian,
+};
 use super::record::EnergyRecord;
-use actin_integrate::{Drag, PEFRL, advance, largest_frequency, stable_step};
-
-use actin_mechanics::{State, System};
+use actin_integrate::{PEFRL, largest_frequency, stable_step};
+use actin_mechanics::System;
 
 const LAWS: [&str; 4] = [
     "PublishedExtension",
@@ -69,26 +71,6 @@ impl Case {
     }
 }
 
-/// Duration of the flight (ns), as in `order.rs`.
-const TIME: f64 = 0.1;
-
-fn state_after(case: Case, steps: u32) -> State {
-    let mut system = case.in_flight();
-    let h = TIME / f64::from(steps);
-    advance(&mut system, &PEFRL, h, steps.into(), &Drag::NONE);
-    system.state().clone()
-}
-
-/// Steps in which the fastest mode advances by 1 rad.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "frequencies are a few hundred per ns, so this is a positive number below 100"
-)]
-fn steps_of_one_radian(case: Case) -> u32 {
-    (case.frequency() * TIME).ceil() as u32
-}
-
 /// A discontinuous load would have order 1 to 2.
 ///
 /// `Homogenised` is excluded: it softens in compression within a strain of 7e-5 and has orders of 2
@@ -97,13 +79,11 @@ fn steps_of_one_radian(case: Case) -> u32 {
 fn every_law_moves_with_order_four() {
     let is_smooth = |case: &Case| case.law != "Homogenised";
     for case in Case::all().into_iter().filter(is_smooth) {
-        let steps = steps_of_one_radian(case);
-        let reference = state_after(case, 64 * steps);
-        let error = |n: u32| distances(&state_after(case, n * steps), &reference);
-        let (coarse, fine) = (error(4), error(8));
-        let orders: Vec<f64> = (coarse.iter().zip(&fine))
-            .map(|(coarse, fine)| (coarse / fine).log2())
-            .collect();
+        let steps = steps_of_one_radian(case.frequency());
+        let after = |n: u32| state_after(case.in_flight(), &PEFRL, n * steps);
+        let reference = after(64);
+        let error = |n: u32| distances(&after(n), &reference);
+        let orders = orders(error(4), error(8));
         let name = case.name();
         // The next term of the error is of relative order (omega h)^2, as in `order.rs`.
         assert!(orders.iter().all(|o| (o - 4.0).abs() < 0.05), "{name}");

@@ -1,6 +1,6 @@
 //! Equipartition of linkers that relax within a step.
 
-use super::filaments::KBT;
+use super::filaments::{KBT, mean_and_error};
 use actin_sim::{Assembly, Plan, Record, Scene, Sink};
 use std::fmt::Write;
 
@@ -91,9 +91,7 @@ impl Pairs {
         let size = all.len() / BLOCKS;
         let ratio = |block: &[f64]| block.iter().sum::<f64>() / (size as f64 * exact * KBT);
         let ratios: Vec<f64> = all.chunks_exact(size).map(ratio).collect();
-        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
-        let squares = ratios.iter().map(|ratio| (ratio - mean).powi(2));
-        let error = (squares.sum::<f64>() / (ratios.len() * (ratios.len() - 1)) as f64).sqrt();
+        let (mean, error) = mean_and_error(&ratios);
         assert!(
             (mean - 1.0).abs() < worst + 4.0 * error && error < 0.03,
             "{mean} +- {error}"

@@ -1,31 +1,17 @@
 //! Order of convergence of whole states.
 
-use super::filaments::{FILAMENTS, Filament, KBT, degrees_of_freedom, distances, in_flight};
+use super::filaments::{
+    FILAMENTS, Filament, KBT, degrees_of_freedom, distances, in_flight, orders, state_after,
+    steps_of_one_radian,
+};
 use super::record::scientific;
 use crate::common::ran;
 use actin_integrate::{
-    Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, advance,
+    Composition, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, VELOCITY_VERLET,
     largest_frequency,
 };
-use actin_mechanics::State;
 
-/// Duration of the flight (ns): 50 to 90 radians of the fastest mode.
-const TIME: f64 = 0.1;
-
-fn state_after(filament: Filament, scheme: &Composition, steps: u32) -> State {
-    let mut system = in_flight(filament);
-    let h = TIME / f64::from(steps);
-    advance(&mut system, scheme, h, steps.into(), &Drag::NONE);
-    system.state().clone()
-}
-
-/// Steps in which the fastest mode advances by 1 rad.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "frequencies are a few hundred per ns, so this is a positive number below 100"
-)]
-fn steps_of_one_radian(filament: Filament) -> u32 {
+fn radians(filament: Filament) -> u32 {
     let system = in_flight(filament);
     let omega = largest_frequency(&system).unwrap();
     let dofs = degrees_of_freedom(system.state()) as f64;
@@ -34,32 +20,30 @@ fn steps_of_one_radian(filament: Filament) -> u32 {
         "{}: {omega:.0} rad/ns, strain energy {strain_energy:.2} kBT per degree of freedom",
         filament.0
     );
-    (omega * TIME).ceil() as u32
+    steps_of_one_radian(omega)
 }
 
 #[test]
 fn every_method_has_its_order_on_every_filament() {
     for filament in FILAMENTS {
-        let steps = steps_of_one_radian(filament);
+        let steps = radians(filament);
+        let after = |scheme: &Composition, n: u32| state_after(in_flight(filament), scheme, n);
         // PEFRL has the smallest error; at 1/64 rad per step it is 1/4096 of the smallest error
         // below.
-        let reference = state_after(filament, &PEFRL, 64 * steps);
+        let reference = after(&PEFRL, 64 * steps);
         // The next term of the error is of relative order (omega h)^2. Verlet runs at half the
         // step.
         for (scheme, fraction) in [
             (POSITION_VERLET, 16),
+            (VELOCITY_VERLET, 16),
             (PEFRL, 4),
             (VEFRL, 4),
             (FOREST_RUTH, 8),
             (SUZUKI, 4),
         ] {
-            let error = |n: u32| distances(&state_after(filament, &scheme, n * steps), &reference);
+            let error = |n: u32| distances(&after(&scheme, n * steps), &reference);
             let (coarse, fine) = (error(fraction), error(2 * fraction));
-            let orders: Vec<f64> = coarse
-                .iter()
-                .zip(&fine)
-                .map(|(coarse, fine)| (coarse / fine).log2())
-                .collect();
+            let orders = orders(coarse, fine);
             println!(
                 "  {}, 1/{fraction} rad: errors {}, orders {orders:.3?}",
                 scheme.name(),

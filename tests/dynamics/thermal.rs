@@ -1,6 +1,6 @@
 //! Equipartition of filaments in a heat bath. Tolerances are 4.5 standard errors at fixed seeds.
 
-use super::filaments::{FILAMENTS, KBT, assemble};
+use super::filaments::{FILAMENTS, KBT, assemble, mean_and_error};
 use super::modes::Modes;
 use crate::common::{build, ran};
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
@@ -20,15 +20,8 @@ fn step(system: &System) -> f64 {
     stable_step(&PEFRL, largest_frequency(system).unwrap(), 0.25).unwrap()
 }
 
-fn estimate(blocks: &[f64]) -> (f64, f64) {
-    let n = blocks.len() as f64;
-    let mean = blocks.iter().sum::<f64>() / n;
-    let square: f64 = blocks.iter().map(|b| (b - mean).powi(2)).sum();
-    (mean, (square / (n * (n - 1.0))).sqrt())
-}
-
 fn assert_is_one(what: &str, blocks: &[f64]) {
-    let (mean, error) = estimate(blocks);
+    let (mean, error) = mean_and_error(blocks);
     println!("{what}: {mean:.4} +- {error:.4}");
     assert!((mean - 1.0).abs() < ERRORS * error, "{what}");
     // The scatter must not hide errors.

@@ -1,5 +1,6 @@
 //! Inertial motion in water compared with overdamped motion.
 
+use super::filaments::mean_and_error;
 use crate::common::{build, ran};
 use actin_brownian::Cylinder;
 use actin_sim::mechanics::Vector3;
@@ -76,10 +77,8 @@ fn variance(task: &str) -> (f64, f64, u64) {
         .chunks_exact(squares.len() / 20)
         .map(|block| block.iter().sum::<f64>() / block.len() as f64)
         .collect();
-    let n = blocks.len() as f64;
-    let mean = blocks.iter().sum::<f64>() / n;
-    let spread: f64 = blocks.iter().map(|b| (b - mean).powi(2)).sum();
-    (mean, (spread / (n - 1.0) / n).sqrt(), evaluations)
+    let (mean, error) = mean_and_error(&blocks);
+    (mean, error, evaluations)
 }
 
 /// In water at 298 K the tip of a cantilever of 60 nm has the variance `kT (L^3/3B + L/S)`, plus

@@ -1,8 +1,6 @@
 //! Filaments joined by linkers between two sites, and a filament joined to itself.
 
-use super::common::{
-    BEND, LENGTH, MIXED, SHEAR, apart, build, cantilever, newton, rod_scene, solved, to,
-};
+use super::common::{BEND, LENGTH, SHEAR, apart, build, cantilever, newton, rod_scene, solved, to};
 use actin_equilibrium::{BodyOrder, Layout, Newton};
 use actin_mechanics::Vector3;
 use actin_sim::{Assembly, End};
@@ -98,51 +96,6 @@ fn a_spring_that_is_pushed_together_swings_round() {
     assert!(energy < in_line, "{energy} above {in_line}");
     // The tips, 10 nm apart as built, have changed sides.
     assert!(tips[0].x - tips[1].x > 19.0);
-}
-
-fn tied(task: &str) -> String {
-    format!(
-        "Scene(
-            filaments: [
-                {MIXED},
-                Filament(
-                    sections: [
-                        Rod(from_nm: 0.0, to_nm: 20.0, segments: 2),
-                        Ellipsoids(from_nm: 20.0, to_nm: 40.0),
-                    ],
-                    monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
-                    at_nm: (9.0, 2.0, 0.0), direction: (-0.1, 0.1, 1.0),
-                    rod: RodModel(law: Constant),
-                ),
-            ],
-            clamps: [Clamp(end: Start), Clamp(filament: 1, end: Start)],
-            loads: [EndForce(filament: 1, end: End, force_pn: (2.0, 1.0, 0.0))],
-            linkers: [
-                Linker(at_nm: 12.0, radius_nm: 1.8, azimuth_deg: 40.0, stiffness_pn_per_nm: 5.0,
-                    to: Site(filament: 1, at_nm: 12.0, radius_nm: 1.8, azimuth_deg: -150.0)),
-                Linker(filament: 1, at_nm: 33.0, radius_nm: 1.8, azimuth_deg: 200.0,
-                    to: Site(at_nm: 33.0, radius_nm: 1.8), stiffness_pn_per_nm: 20.0,
-                    rest_length_nm: 3.0),
-            ],
-            task: {task},
-        )"
-    )
-}
-
-/// The stop rule displaces the softest mode by less than the tolerance.
-#[test]
-fn dynamics_of_a_tied_pair_comes_to_rest_where_newton_ends() {
-    let (newton, _) = solved(&tied("Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)"));
-    let (moving, report) = solved(&tied(
-        "Dynamics(
-            duration_ns: 2000.0, record_every_ns: 1.0, integrator: PositionVerlet, step_safety: 0.9,
-            drag: (translational_per_ns: 2.0, rotational_per_ns: 2.0),
-            stop: (force_pn: 1e-8, torque_pn_nm: 1e-8, kinetic_pn_nm: 1e-12),
-        )",
-    ));
-    assert!(report.has_converged(), "{} steps", report.steps);
-    let apart = apart(newton.system.state(), moving.system.state());
-    assert!(apart < 1e-6, "{apart:e} nm apart");
 }
 
 /// A free rod with a string between its ends is the elastica under a thrust along the string. With

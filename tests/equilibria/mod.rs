@@ -15,7 +15,6 @@ mod helical;
 mod homogenised;
 mod joined;
 mod linkers;
-mod long_segments;
 mod lost_twist;
 mod reciprocity;
 mod ring;

@@ -82,6 +82,29 @@ fn unlinked_filaments_are_each_alone() {
     }
 }
 
+/// Forces in another order, next to a vanishing one, or halved.
+#[test]
+fn forces_with_the_same_sum_have_the_same_equilibrium() {
+    let (one, other) = ([-2.0, 0.5, 0.0], [0.3, 0.2, 0.9]);
+    let half = one.map(|x| 0.5 * x);
+    let task = format!("task: {TIGHT}");
+    let under = |forces: &[[f64; 3]]| {
+        let loads: String = forces.iter().map(|force| pull(0, *force)).collect();
+        let filament = format!("filament: ({MIXED})");
+        solved(&scene(&filament, "Clamp(end: Start)", &loads, &task)).0
+    };
+    let both = under(&[one, other]);
+    for forces in [[other, one, [0.0; 3]], [half, other, half]] {
+        let found = under(&forces);
+        let distance = apart((&both, 0), (&found, 0), both.points.len(), |x| x);
+        let excess = energy(&found) - energy(&both);
+        assert!(
+            distance < 1e-10 && excess.abs() < 1e-10,
+            "{distance:e} {excess:e}"
+        );
+    }
+}
+
 #[test]
 fn filaments_alike_are_sampled_independently() {
     let bonds = |assembly: &Assembly, section| {

@@ -1,11 +1,8 @@
 //! Overdamped motion with following resolution: temperature, shape and relaxation.
 
-use super::{scene, to_and_fro};
+use super::{KT, Recorded, mean_square_angle, records, scene, to_and_fro};
 use actin_sim::follow::{AdaptiveMotion, CompletedStretch, Follower};
-use actin_sim::shape::Ribbon;
 use actin_sim::{Assembly, End, Plan, Record, RodLaw, Scene, Section};
-
-const KT: f64 = 0.013_806_49 * 298.0;
 
 /// Free filament of three cells at a temperature, in steps that do not resolve bending.
 fn thermal(duration_ms: f64) -> Scene {
@@ -37,18 +34,11 @@ fn of_monomers(scene: &Scene) -> Assembly {
     Assembly::build(&scene).unwrap()
 }
 
-type Seen<'a> = (&'a Assembly, &'a Record);
-
-fn warm(run: &AdaptiveMotion) -> impl Iterator<Item = Seen<'_>> {
-    let all = run.stretches.iter().flat_map(|ran| {
-        let assembly = &ran.stretch.assembly;
-        let records = ran.trajectory.records.iter();
-        records.map(move |record| (assembly, record))
-    });
-    all.skip(20)
+fn warm(run: &AdaptiveMotion) -> impl Iterator<Item = Recorded<'_>> {
+    records(run).skip(20)
 }
 
-fn about_switches(run: &AdaptiveMotion) -> [impl Iterator<Item = Seen<'_>>; 2] {
+fn about_switches(run: &AdaptiveMotion) -> [impl Iterator<Item = Recorded<'_>>; 2] {
     [true, false].map(|is_first| {
         let stretches = run.stretches.iter().skip(20);
         stretches.filter_map(move |ran| {
@@ -64,24 +54,13 @@ fn about_switches(run: &AdaptiveMotion) -> [impl Iterator<Item = Seen<'_>>; 2] {
 }
 
 /// Mean energy over kT/2 per degree of freedom, without rigid motions.
-fn warmth<'a>(records: impl Iterator<Item = Seen<'a>>) -> f64 {
+fn warmth<'a>(records: impl Iterator<Item = Recorded<'a>>) -> f64 {
     let (mut found, mut expected) = (0.0, 0.0);
     for (assembly, record) in records {
         found += record.potential_pn_nm();
         expected += 0.5 * (assembly.counts().dofs - 6) as f64 * KT;
     }
     found / expected
-}
-
-/// Mean squared angle between the tangents at the ends (rad^2).
-fn mean_square_angle<'a>(records: impl Iterator<Item = Seen<'a>>) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for (assembly, record) in records {
-        let tangents = Ribbon::new(assembly, &record.state).tangents();
-        sum += tangents[0].angle(&tangents[tangents.len() - 1]).powi(2);
-        count += 1.0;
-    }
-    sum / count
 }
 
 #[test]

@@ -1,11 +1,8 @@
 //! A thousand switches in a heat bath.
 
-use super::{scene, to_and_fro};
+use super::{KT, Recorded, mean_square_angle, records, scene, to_and_fro};
 use actin_sim::Scene;
 use actin_sim::follow::AdaptiveMotion;
-use actin_sim::shape::Ribbon;
-
-const KT: f64 = 0.013_806_49 * 298.0;
 
 fn thermal(duration_ns: f64) -> Scene {
     let rest = format!(
@@ -20,34 +17,19 @@ fn thermal(duration_ns: f64) -> Scene {
     scene(108.0, 0.25, &rest)
 }
 
-/// Mean temperature over the bath temperature, weighted by degrees of freedom, after `from_ns`.
-fn temperature(run: &AdaptiveMotion, from_ns: f64) -> f64 {
-    let (mut found, mut expected) = (0.0, 0.0);
-    for ran in &run.stretches {
-        let dofs = ran.stretch.assembly.counts().dofs as f64;
-        for record in &ran.trajectory.records {
-            if record.at.value() >= from_ns {
-                found += record.kinetic_pn_nm;
-                expected += 0.5 * dofs * KT;
-            }
-        }
-    }
-    found / expected
+/// Records after the first 10 ns.
+fn warm(run: &AdaptiveMotion) -> impl Iterator<Item = Recorded<'_>> {
+    records(run).filter(|(_, record)| record.at.value() >= 10.0)
 }
 
-/// Mean squared angle between the tangents at the ends (rad^2) after `from_ns`.
-fn mean_square_angle(run: &AdaptiveMotion, from_ns: f64) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for ran in &run.stretches {
-        let records = ran.trajectory.records.iter();
-        for record in records.filter(|r| r.at.value() >= from_ns) {
-            let tangents = Ribbon::new(&ran.stretch.assembly, &record.state).tangents();
-            let angle = tangents[0].angle(&tangents[tangents.len() - 1]);
-            sum += angle * angle;
-            count += 1.0;
-        }
+/// Mean temperature over the bath temperature, weighted by degrees of freedom.
+fn temperature(run: &AdaptiveMotion) -> f64 {
+    let (mut found, mut expected) = (0.0, 0.0);
+    for (assembly, record) in warm(run) {
+        found += record.kinetic_pn_nm;
+        expected += 0.5 * assembly.counts().dofs as f64 * KT;
     }
-    sum / count
+    found / expected
 }
 
 #[test]
@@ -55,12 +37,12 @@ fn a_thousand_switches_neither_heat_nor_cool() {
     let run = to_and_fro(&thermal(501.0), 0.5);
     let switches: Vec<_> = run.switches().collect();
     assert!(switches.len() >= 1000);
-    let temperature = temperature(&run, 10.0);
+    let temperature = temperature(&run);
     let booked: f64 = switches.iter().map(|s| s.energy_pn_nm).sum();
     let sizes: f64 = switches.iter().map(|s| s.energy_pn_nm.abs()).sum();
     let momentum = switches.iter().map(|s| s.momentum_change);
     let momentum: f64 = momentum.fold(0.0, f64::max);
-    let angle = mean_square_angle(&run, 10.0);
+    let angle = mean_square_angle(warm(&run));
     let length = run.stretches[0].stretch.assembly.length_nm();
     // Two directions of bending, persistence length of 11 um.
     let expected = 2.0 * length / 11_000.0;

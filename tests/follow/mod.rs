@@ -8,7 +8,11 @@ mod kept;
 mod windows;
 
 use actin_sim::follow::{AdaptiveMotion, Cell, Criterion, Follower, ResolutionRequest};
-use actin_sim::{Record, Scene};
+use actin_sim::shape::Ribbon;
+use actin_sim::{Assembly, Record, Scene};
+
+/// Thermal energy at 298 K (pN nm).
+const KT: f64 = 0.013_806_49 * 298.0;
 
 /// Criterion that alternates cells between rod and monomers at equal time intervals; the first cell
 /// stays a rod.
@@ -50,6 +54,27 @@ fn to_and_fro(scene: &Scene, every_ns: f64) -> AdaptiveMotion {
     let follower = Follower::new(scene).unwrap();
     let follower = follower.with_criterion(Box::new(ToAndFro { every_ns }));
     follower.run().unwrap_or_else(|error| panic!("{error}"))
+}
+
+type Recorded<'a> = (&'a Assembly, &'a Record);
+
+fn records(run: &AdaptiveMotion) -> impl Iterator<Item = Recorded<'_>> {
+    run.stretches.iter().flat_map(|ran| {
+        let assembly = &ran.stretch.assembly;
+        let records = ran.trajectory.records.iter();
+        records.map(move |record| (assembly, record))
+    })
+}
+
+/// Mean squared angle between the tangents at the ends (rad^2).
+fn mean_square_angle<'a>(records: impl Iterator<Item = Recorded<'a>>) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (assembly, record) in records {
+        let tangents = Ribbon::new(assembly, &record.state).tangents();
+        sum += tangents[0].angle(&tangents[tangents.len() - 1]).powi(2);
+        count += 1.0;
+    }
+    sum / count
 }
 
 fn energy(record: &Record) -> f64 {

@@ -29,7 +29,7 @@ fn cantilever(segments: usize) -> Rod {
 /// has no discretisation error.
 #[test]
 fn a_small_load_gives_timoshenkos_deflection() {
-    let meshes = [5, 10, 20];
+    let meshes = [1, 2, 4, 8, 16];
     let errors = meshes.map(|segments| {
         let rod = Rod {
             force_pn: 1e-3 * FORCE,

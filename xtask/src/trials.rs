@@ -23,8 +23,6 @@ enum Kind {
     Run,
     /// Runs that are killed and resumed until they are done.
     Kill,
-    /// Scenes changed in ways that must not change the result.
-    Metamorphic,
 }
 
 impl Kind {
@@ -33,7 +31,6 @@ impl Kind {
             Self::Check => "spoilt_scenes_are_checked",
             Self::Run => "spoilt_scenes_are_run",
             Self::Kill => "killed_runs_are_resumed",
-            Self::Metamorphic => "scenes_changed_without_effect_agree",
         }
     }
 }

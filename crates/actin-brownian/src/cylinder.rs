@@ -176,6 +176,8 @@ mod tests {
         let logarithm = 1e8_f64.ln();
         assert!((c.across() * (logarithm + 0.839) / (4.0 * PI) - 1.0).abs() < 1e-7);
         assert!((c.along() * (logarithm - 0.207) / (2.0 * PI) - 1.0).abs() < 1e-7);
+        let turning = c.end_over_end() / c.length().powi(3);
+        assert!((turning * 3.0 * (logarithm - 0.662) / PI - 1.0).abs() < 1e-7);
     }
 
     #[test]

@@ -272,4 +272,10 @@ mod tests {
             scheme.check_table().unwrap();
         }
     }
+
+    #[test]
+    fn errors_of_unknown_names_list_the_known_ones() {
+        let message = Composition::by_name("verlet").unwrap_err().to_string();
+        assert!(message.contains("\"verlet\"") && message.contains("position-verlet"));
+    }
 }

@@ -267,11 +267,11 @@ mod tests {
             foreign.contains("actin-run.json is not the list"),
             "{foreign}"
         );
-        let unlisted = refusal(|folder| fs::write(folder.join("vtk/0002.vtp"), "").unwrap());
-        assert!(
-            unlisted.contains("vtk/0002.vtp was not written"),
-            "{unlisted}"
-        );
+        for name in ["vtk/0002.vtp", "vtk/0002.vtp.part", "Profile.csv"] {
+            let unlisted = refusal(|folder| fs::write(folder.join(name), "").unwrap());
+            let expected = format!("{name} was not written");
+            assert!(unlisted.contains(&expected), "{unlisted}");
+        }
         let folder = refusal(|folder| fs::create_dir(folder.join(PROFILE)).unwrap());
         assert!(folder.contains("profile.csv was not written"), "{folder}");
     }

@@ -1,4 +1,4 @@
-//! Small mixed filaments and synthetic runs for tests.
+//! Small mixed filaments and synthetic runs for tests of this crate and of summaries in `actin-sim`.
 
 use crate::names::PICTURES;
 use actin_sim::mechanics::{Xorshift, perturb, randomise_velocities};

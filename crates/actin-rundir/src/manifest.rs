@@ -284,35 +284,4 @@ mod tests {
         let good = lists(SCENE);
         assert!(Manifest::parse(good.as_bytes()).is_ok(), "{good}");
     }
-
-    #[test]
-    fn unlisted_files_with_names_of_results_are_refused() {
-        let listed = manifest(&[SCENE, "vtk/0000.vtp"]);
-        let refused = |spoil: &dyn Fn(&Path)| {
-            let folder = tempfile::tempdir().unwrap();
-            fs::create_dir(folder.path().join(PICTURES)).unwrap();
-            for name in [
-                SCENE,
-                "scene.ron.part",
-                "notes.txt",
-                "vtk/0000.vtp",
-                "vtk/mine.vtp",
-            ] {
-                fs::write(folder.path().join(name), "").unwrap();
-            }
-            spoil(folder.path());
-            let outcome = listed.ensure_own(folder.path());
-            outcome.err().map(|error| error.to_string())
-        };
-        assert_eq!(refused(&|_| ()), None);
-        for name in [SUMMARY, "Summary.json", "vtk/0001.vtp", "records.bin.part"] {
-            let message = refused(&|folder| fs::write(folder.join(name), "").unwrap());
-            assert!(message.is_some_and(|m| m.contains(name)), "{name}");
-        }
-        let folder_for_file = refused(&|folder| {
-            fs::remove_file(folder.join(SCENE)).unwrap();
-            fs::create_dir(folder.join(SCENE)).unwrap();
-        });
-        assert!(folder_for_file.is_some_and(|m| m.contains(SCENE)));
-    }
 }

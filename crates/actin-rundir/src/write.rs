@@ -292,19 +292,6 @@ mod tests {
         assert_eq!(names(&folder.path().join(PICTURES)).len(), 3);
     }
 
-    #[test]
-    fn edited_scene_of_a_killed_run_is_not_overwritten() {
-        let (folder, directory) = empty();
-        let assembly = fixture::clamped_start();
-        directory.write_scene(&assembly.scene).unwrap();
-        assert!(RunDirectory::create(folder.path(), true).is_ok());
-        directory.write_scene(&assembly.scene).unwrap();
-        fs::write(folder.path().join(SCENE), "mine").unwrap();
-        let error = RunDirectory::create(folder.path(), true).unwrap_err();
-        assert!(matches!(error, RunDirectoryError::Changed(_)), "{error}");
-        assert_eq!(fs::read(folder.path().join(SCENE)).unwrap(), b"mine");
-    }
-
     /// Remaining pictures would seem to belong to the shorter run.
     #[test]
     fn a_shorter_run_leaves_no_pictures_of_a_longer_one() {
@@ -364,11 +351,7 @@ mod tests {
         let trajectory = fixture::trajectory(&assembly);
         let outcome = fixture::outcome();
         let write = || directory.write(&plan(&assembly), &trajectory, &outcome);
-        // An interrupted run writes its results again after it is resumed.
-        write().unwrap();
-        directory.reopen().unwrap();
-        write().unwrap();
-        for name in [ENERGIES, PROFILE, SCENE] {
+        let check_edited = |name: &str| {
             let file = path.join(name);
             let written = fs::read(&file).unwrap();
             fs::write(&file, "mine").unwrap();
@@ -383,6 +366,16 @@ mod tests {
             }
             assert_eq!(fs::read(&file).unwrap(), b"mine");
             fs::write(&file, written).unwrap();
+        };
+        // A run killed before its first results.
+        directory.write_scene(&assembly.scene).unwrap();
+        check_edited(SCENE);
+        // An interrupted run writes its results again after it is resumed.
+        write().unwrap();
+        directory.reopen().unwrap();
+        write().unwrap();
+        for name in [ENERGIES, PROFILE, SCENE] {
+            check_edited(name);
         }
         directory.reopen().unwrap();
         RunDirectory::create(path, true).unwrap();

@@ -14,6 +14,9 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+#[cfg(test)]
+extern crate self as actin_sim;
+
 mod codes;
 mod cost;
 mod ensemble;

@@ -1,6 +1,6 @@
 use crate::common;
-use actin_brownian::mechanics::{PointLoad, UnitQuaternion, Vector3, Xorshift, rotation};
-use common::{advance, free_rod, rigidities, tip};
+use actin_brownian::mechanics::{PointLoad, Vector3, rotation};
+use common::{advance, free_rod, mean_and_error, rigidities, tip};
 
 const KT: f64 = 4.11;
 const BLOCKS: u64 = 20;
@@ -21,8 +21,8 @@ impl Chain {
         self.length * self.segments as f64
     }
 
-    /// Distances of the ends and extensions along the force, in blocks of steps of `h` (ns).
-    fn run(&self, h: f64, steps: u64) -> [Vec<Vec<f64>>; 2] {
+    /// Mean extension along the force, in blocks of steps of `h` (ns).
+    fn run(&self, h: f64, steps: u64) -> Vec<f64> {
         let (mut system, mut stepper, rod) =
             free_rod(self.segments, self.contour(), (KT, 1), |state, rod| {
                 let control = state.add_control(1.0);
@@ -34,48 +34,17 @@ impl Chain {
             });
         let (warm, each) = (steps / 20, steps / BLOCKS);
         advance(&mut system, &mut stepper, (0, warm), h, |_| ());
-        let mut found = [Vec::new(), Vec::new()];
-        for block in 0..BLOCKS {
+        let of_block = |block: u64| {
             let first = warm + block * each;
-            let (mut distances, mut extensions) = (Vec::new(), Vec::new());
-            advance(
-                &mut system,
-                &mut stepper,
-                (first, first + each),
-                h,
-                |system| {
-                    let x = &system.state().points.position;
-                    let ends = x.get(tip(&rod)) - x.get(rod.points().start);
-                    distances.push(ends.norm());
-                    extensions.push(ends.z);
-                },
-            );
-            found[0].push(distances);
-            found[1].push(extensions);
-        }
-        found
-    }
-
-    fn joint(&self, random: &mut Xorshift) -> UnitQuaternion {
-        let spread = (rigidities().bend / (KT * self.length)).map(|a| a.recip().sqrt());
-        loop {
-            let theta = Vector3::from_fn(|_, _| normal(random)).component_mul(&spread);
-            let half = 0.5 * theta.norm();
-            if 0.5 * (random.sample() + 1.0) < (half.sin() / half).powi(2) {
-                return rotation::exp(theta);
-            }
-        }
-    }
-
-    fn drawn(&self, random: &mut Xorshift) -> f64 {
-        let spread = (rigidities().shear * (self.length / KT)).map(|a| a.recip().sqrt());
-        let (mut q, mut ends) = (UnitQuaternion::identity(), Vector3::zeros());
-        for _ in 0..self.segments {
-            let strain = Vector3::from_fn(|_, _| normal(random)).component_mul(&spread);
-            ends += q * (Vector3::z() + strain) * self.length;
-            q *= self.joint(random);
-        }
-        ends.norm()
+            let mut extension = 0.0;
+            let steps = (first, first + each);
+            advance(&mut system, &mut stepper, steps, h, |system| {
+                let x = &system.state().points.position;
+                extension += (x.get(tip(&rod)) - x.get(rod.points().start)).z;
+            });
+            extension / each as f64
+        };
+        (0..BLOCKS).map(of_block).collect()
     }
 
     fn extension(&self) -> f64 {
@@ -143,12 +112,6 @@ impl Chain {
     }
 }
 
-fn normal(random: &mut Xorshift) -> f64 {
-    let u = 0.5 * (random.sample() + 1.0);
-    let phase = std::f64::consts::PI * random.sample();
-    (-2.0 * (1.0 - u).ln()).sqrt() * phase.cos()
-}
-
 fn legendre(c: f64) -> Vec<f64> {
     let mut p = vec![1.0, c];
     for n in 1..DEGREES - 1 {
@@ -177,17 +140,6 @@ fn gauss_legendre() -> Vec<(f64, f64)> {
     (0..PLACES).map(root).collect()
 }
 
-fn mean_and_error(blocks: &[Vec<f64>], of: impl Fn(f64) -> f64) -> (f64, f64) {
-    let means: Vec<f64> = blocks
-        .iter()
-        .map(|block| block.iter().map(|x| of(*x)).sum::<f64>() / block.len() as f64)
-        .collect();
-    let n = means.len() as f64;
-    let mean = means.iter().sum::<f64>() / n;
-    let squares: f64 = means.iter().map(|m| (m - mean).powi(2)).sum();
-    (mean, (squares / (n - 1.0) / n).sqrt())
-}
-
 /// The extension at 2 pN agrees within three standard errors.
 #[test]
 fn extension_is_exact_in_long_steps() {
@@ -196,111 +148,12 @@ fn extension_is_exact_in_long_steps() {
         length: 40.0,
         force: 2.0,
     };
-    let [_, extensions] = chain.run(180.0, 20_000);
-    let ((mean, error), exact) = (mean_and_error(&extensions, |x| x), chain.extension());
+    let (mean, error) = mean_and_error(&chain.run(180.0, 20_000));
+    let exact = chain.extension();
     println!("{mean} +- {error}, exact {exact}");
     assert!(error < 1e-3 * exact, "{error}");
     assert!(
         (mean - exact).abs() < 3.0 * error,
         "{mean} +- {error}, {exact}"
     );
-}
-
-/// The error of the extension of 1 um is below a thousandth. The result of Odijk for a continuous
-/// chain is printed.
-#[test]
-#[ignore = "takes minutes"]
-fn force_and_extension() {
-    for (force, h, steps) in [
-        (0.5, 180.0, 200_000),
-        (2.0, 180.0, 200_000),
-        (10.0, 180.0, 100_000),
-        (10.0, 31.0, 200_000),
-        (2.0, 1000.0, 100_000),
-        (10.0, 1000.0, 100_000),
-    ] {
-        let chain = Chain {
-            segments: 25,
-            length: 40.0,
-            force,
-        };
-        let (mean, error) = mean_and_error(&chain.run(h, steps)[1], |x| x);
-        let bend = rigidities().bend.x;
-        let slack = 0.5 * KT / (force * bend).sqrt();
-        let odijk = 1000.0 * (1.0 - slack + force / rigidities().shear.z);
-        let exact = chain.extension();
-        println!(
-            "{force} pN, {h} ns: missing {:.3} +- {error:.3} of 1000 nm, the chain {:.3}, without ends {:.3}",
-            1000.0 - mean,
-            1000.0 - exact,
-            1000.0 - odijk
-        );
-        assert!((mean - exact).abs() < 1e-3 * chain.contour() + 3.0 * error);
-    }
-}
-
-/// Distribution of the end distance of a free rod of 1 um, compared with samples of the exact
-/// chain: mean square within four standard errors, and deciles within a tenth. The result of Kratky
-/// and Porod is printed.
-#[test]
-#[ignore = "takes minutes"]
-fn distances_of_the_ends() {
-    let chain = Chain {
-        segments: 25,
-        length: 40.0,
-        force: 0.0,
-    };
-    let mut random = Xorshift::new(3);
-    let mut drawn: Vec<f64> = (0..400_000).map(|_| chain.drawn(&mut random)).collect();
-    drawn.sort_by(f64::total_cmp);
-    let squares = drawn.iter().map(|r| r * r).sum::<f64>() / drawn.len() as f64;
-    let [distances, _] = chain.run(1000.0, 500_000);
-    let (mean, error) = mean_and_error(&distances, |r| r * r);
-    let lp = rigidities().bend.x / KT;
-    let contour = chain.contour();
-    let porod = 2.0 * lp * contour * (1.0 - lp / contour * (1.0 - (-contour / lp).exp()));
-    println!(
-        "mean square {mean:.1} +- {error:.1}, drawn {squares:.1}, Kratky and Porod {porod:.1} nm^2"
-    );
-    assert!((mean - squares).abs() < 4.0 * error);
-    let mut chi = 0.0;
-    for part in 0..10 {
-        let bound = |k: usize| drawn.get(k * drawn.len() / 10).copied();
-        let from = if part == 0 {
-            0.0
-        } else {
-            bound(part).unwrap_or(0.0)
-        };
-        let to = bound(part + 1).unwrap_or(f64::INFINITY);
-        let inside = |r: f64| f64::from(u8::from(from <= r && r < to));
-        let (share, error) = mean_and_error(&distances, inside);
-        chi += ((share - 0.1) / error).powi(2);
-        println!("{from:.2} to {to:.2} nm: {share:.4} +- {error:.4}");
-        assert!((share - 0.1).abs() < 0.01);
-    }
-    println!("chi^2 {chi:.1} of ten parts");
-}
-
-/// At 10 pN the error of the extension is below a thousandth for all steps.
-#[test]
-#[ignore = "takes minutes"]
-fn tension_and_step() {
-    let chain = Chain {
-        segments: 8,
-        length: 40.0,
-        force: 10.0,
-    };
-    let exact = chain.extension();
-    for (h, steps) in [
-        (1.0, 400_000),
-        (8.0, 200_000),
-        (31.0, 100_000),
-        (180.0, 50_000),
-    ] {
-        let (mean, error) = mean_and_error(&chain.run(h, steps)[1], |x| x);
-        assert!(
-            (mean - exact).abs() < 1e-3 * chain.contour(),
-            "{h} ns: {mean} +- {error}, {exact}"
-        );
-    }
 }

@@ -3,7 +3,9 @@
 
 use crate::common;
 use actin_brownian::mechanics::{Vector3, rotation};
-use common::{FRICTION, FrictionPerLength, advance, free_rod, free_rod_with, rigidities};
+use common::{
+    FRICTION, FrictionPerLength, advance, free_rod, free_rod_with, mean_and_error, rigidities,
+};
 
 const KT: f64 = 4.11;
 const BLOCKS: u64 = 20;
@@ -137,13 +139,6 @@ fn coarse_rods_need_few_iterations() {
     let steps = 300;
     advance(&mut system, &mut stepper, (0, steps), h, |_| ());
     assert!(stepper.iterations() < 7 * steps, "{}", stepper.iterations());
-}
-
-fn mean_and_error(values: &[f64]) -> (f64, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let squares: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
-    (mean, (squares / (n - 1.0) / n).sqrt())
 }
 
 /// Mean cosine of the bend angle of a joint for rotations with the weight

@@ -76,7 +76,7 @@ fn same(folder: &Path, name: &str, ending: &Ending) -> Result<(), String> {
     same_files(&folder.join("whole"), &folder.join(name))
 }
 
-pub(super) fn same_files(one: &Path, other: &Path) -> Result<(), String> {
+fn same_files(one: &Path, other: &Path) -> Result<(), String> {
     let [one, other] = [one, other].map(|folder| {
         let mut files = files(folder);
         files.retain(|(name, _)| !name.starts_with('.'));

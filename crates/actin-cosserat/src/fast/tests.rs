@@ -1,6 +1,8 @@
 //! Comparison of the vector kernels with the scalar path for each number of lanes.
 
 mod collapsed;
+#[path = "../../tests/integration/laws/fixtures.rs"]
+mod fixtures;
 
 use super::*;
 use crate::{
@@ -11,6 +13,7 @@ use crate::{
 use actin_mechanics::testing::{architectures, assert_same_with_any_lanes};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
+use fixtures::{STIFFENING, polynomial, rooted, sided};
 
 fn material() -> RodMaterial {
     RodMaterial::new(Rigidities {
@@ -20,36 +23,9 @@ fn material() -> RodMaterial {
     .unwrap()
 }
 
-/// Scales of the order of the strains in the tests, and a range that some curvatures exceed.
-const STIFFENING: BendLaw = BendLaw::Stiffening(Stiffening {
-    rest: 3e4,
-    rise: 1e4,
-    curvature: 0.05,
-    twist: 0.06,
-    shear: 0.1,
-    range: 0.2,
-});
-const SIDED: TwistLaw = TwistLaw::Sided(SidedTwist {
-    rest: 272.0,
-    under: TwistRise {
-        rise: 1.3e4,
-        half: 0.04,
-        slow: 0.08,
-    },
-    over: TwistRise {
-        rise: 2.2e4,
-        half: 0.05,
-        slow: 0.07,
-    },
-    range: 0.06,
-});
-const ROOTED: TwistStretch = TwistStretch::Rooted(RootedStretch {
-    slope: -0.29,
-    bend: 0.46,
-    half: 0.03,
-    cubic: 2.0,
-    range: 0.07,
-});
+/// Ranges that some twists exceed.
+const SIDED: TwistLaw = TwistLaw::Sided(sided(0.06));
+const ROOTED: TwistStretch = rooted(0.07);
 const SHEAR: CubicShear = CubicShear {
     linear: [1e3, 2e3],
     cubic: 1e6,
@@ -70,14 +46,11 @@ fn laws() -> Vec<Named> {
     let constant = material();
     let tanh = (constant.with_twist(TwistLaw::Tanh(TanhTwist::published()))).unwrap();
     let sided = constant.with_twist(SIDED).unwrap();
-    let bent = constant.with_bend(STIFFENING).unwrap();
-    let straight = sided.with_bend(STIFFENING).unwrap();
+    let bent = constant.with_bend(BendLaw::Stiffening(STIFFENING)).unwrap();
+    let straight = sided.with_bend(BendLaw::Stiffening(STIFFENING)).unwrap();
     let sheared = straight.with_shear(SHEAR).unwrap();
     let slender = constant.with_shear(SHEAR).unwrap();
-    let powers = TwistStretch::Polynomial(PolynomialStretch {
-        coefficients: [-5e-4, -0.3, -5.0, 20.0, 300.0, -1e3, -1e4],
-        range: 0.07,
-    });
+    let powers = polynomial(0.07);
     vec![
         ("constant", constant, None),
         ("published", tanh, Some(TwistStretch::published())),
@@ -386,7 +359,7 @@ fn other_laws_keep_the_scalar_path() {
             .with_twist(TwistLaw::Tanh(TanhTwist::published()))
             .unwrap()
     };
-    let bent = constant.with_bend(STIFFENING).unwrap();
+    let bent = constant.with_bend(BendLaw::Stiffening(STIFFENING)).unwrap();
     let sheared = constant.with_shear(SHEAR).unwrap();
     let polynomial = Some(TwistStretch::published());
     for (material, xi) in [

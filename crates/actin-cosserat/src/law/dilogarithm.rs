@@ -65,9 +65,8 @@ mod tests {
             (-0.03, 1e-6, 0.018),
             (0.02, 0.3, 0.01),
         ] {
-            let integral = crate::law::tanh_twist::tests::integral(k, |s: f64| {
-                s * ((s - centre) / width).tanh()
-            });
+            let integral =
+                crate::law::tests::integral(k, |s: f64| s * ((s - centre) / width).tanh());
             let error = tanh_energy(k, centre, width) - integral;
             // Round-off of the antiderivative, of order width (|centre| + width).
             assert!(

@@ -11,6 +11,8 @@ mod sided_twist;
 mod stiffening;
 mod stretch;
 mod tanh_twist;
+#[cfg(test)]
+mod tests;
 mod twist;
 mod twist_stretch;
 

@@ -103,20 +103,6 @@ impl PolynomialStretch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use actin_mechanics::testing::derivative;
-
-    #[test]
-    fn jet_contains_the_derivatives_inside_and_outside_the_range() {
-        let law = PolynomialStretch::published();
-        for k in [-0.1, -0.04, -0.01, 0.0, 0.02, 0.045, 0.2] {
-            let jet = law.jet(k);
-            for order in [0, 1] {
-                let slope = derivative(1e-4, |h| law.jet(k + h)[order]);
-                let scale = [1.0, 50.0][order];
-                assert!((jet[order + 1] - slope).abs() < 1e-7 * scale, "{k} {order}");
-            }
-        }
-    }
 
     #[test]
     fn published_coefficients_follow_table_5() {
@@ -133,18 +119,5 @@ mod tests {
                 law.extension(k)
             );
         }
-    }
-
-    #[test]
-    fn bad_numbers_are_refused() {
-        let mut law = PolynomialStretch::published();
-        law.coefficients[3] = f64::NAN;
-        assert_eq!(law.validate().unwrap_err().key, "coefficients");
-        let law = PolynomialStretch {
-            range: 0.0,
-            ..PolynomialStretch::published()
-        };
-        assert_eq!(law.validate().unwrap_err().key, "range_per_nm");
-        assert_eq!(PolynomialStretch::linear(9.35e3, 3.4e4).validate(), Ok(()));
     }
 }

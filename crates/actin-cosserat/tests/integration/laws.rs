@@ -1,5 +1,7 @@
 //! Rods with nonlinear laws.
 
+mod fixtures;
+
 use crate::common;
 use actin_cosserat::{
     BendLaw, BendingElement, CubicShear, EndShear, EnergyGradient, Homogenised, JoinedElement,
@@ -14,16 +16,10 @@ use actin_mechanics::testing::{
 use actin_mechanics::{Interaction, State, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 use common::{ALL_WALLS, material, rod};
+use fixtures::{STIFFENING, polynomial, rooted, sided};
 
-/// Scales of the order of the strains in the tests.
-const STIFFENING: Stiffening = Stiffening {
-    rest: 3e4,
-    rise: 1e4,
-    curvature: 0.05,
-    twist: 0.06,
-    shear: 0.2,
-    range: 0.2,
-};
+/// Largest twist (rad/nm) of the data of laws, above all twists of these tests.
+const RANGE: f64 = 0.2;
 
 fn wide_twist() -> TanhTwist {
     let mut law = TanhTwist::published();
@@ -33,36 +29,6 @@ fn wide_twist() -> TanhTwist {
     law.range *= 4.0;
     law
 }
-
-fn wide_stretch() -> TwistStretch {
-    TwistStretch::Polynomial(PolynomialStretch {
-        coefficients: [-5e-4, -0.3, -5.0, 20.0, 300.0, -1e3, -1e4],
-        range: 0.2,
-    })
-}
-
-const SIDED: SidedTwist = SidedTwist {
-    rest: 272.0,
-    under: TwistRise {
-        rise: 1.3e4,
-        half: 0.04,
-        slow: 0.08,
-    },
-    over: TwistRise {
-        rise: 2.2e4,
-        half: 0.05,
-        slow: 0.07,
-    },
-    range: 0.2,
-};
-
-const ROOTED: TwistStretch = TwistStretch::Rooted(RootedStretch {
-    slope: -0.29,
-    bend: 0.46,
-    half: 0.03,
-    cubic: 2.0,
-    range: 0.2,
-});
 
 fn constant() -> RodMaterial {
     RodMaterial::new(Rigidities::table4()).unwrap()
@@ -129,19 +95,21 @@ fn laws() -> Vec<Named> {
     let bent = constant()
         .with_bend(BendLaw::Stiffening(STIFFENING))
         .unwrap();
-    let sided = constant().with_twist(TwistLaw::Sided(SIDED)).unwrap();
+    let sided = constant()
+        .with_twist(TwistLaw::Sided(sided(RANGE)))
+        .unwrap();
     let linear = TwistStretch::linear(9.35e3, 3.4e4);
     let bent_at_rest = bent_at_rest(every_law());
     vec![
         ("constant", constant(), None),
         ("B3(kappa)", twisted, None),
-        ("xi(kappa)", constant(), Some(wide_stretch())),
-        ("published extension", twisted, Some(wide_stretch())),
+        ("xi(kappa)", constant(), Some(polynomial(RANGE))),
+        ("published extension", twisted, Some(polynomial(RANGE))),
         ("coupling energy", twisted, Some(linear)),
         ("B_perp(kappa)", bent, None),
-        ("all", every_law(), Some(wide_stretch())),
-        ("sided twist and rooted stretch", sided, Some(ROOTED)),
-        ("all, bent at rest", bent_at_rest, Some(wide_stretch())),
+        ("all", every_law(), Some(polynomial(RANGE))),
+        ("sided twist and rooted stretch", sided, Some(rooted(RANGE))),
+        ("all, bent at rest", bent_at_rest, Some(polynomial(RANGE))),
         (
             "constant, bent at rest",
             self::bent_at_rest(constant()),

@@ -147,43 +147,19 @@ fn buckling_is_followed_if_requested() {
             ..PathOptions::default()
         };
         let solver = (&mut newton, &mut state, &terms);
-        let see = |p: &PathPoint<'_>| p.equilibrium.saddles_left;
-        let (end, left) = followed(options, solver, &mut proportional, see);
-        let (end, left) = (end.unwrap(), left.iter().sum::<usize>());
+        let see = |p: &PathPoint<'_>| (p.parameter, p.equilibrium.saddles_left);
+        let (end, seen) = followed(options, solver, &mut proportional, see);
+        let (end, left) = (
+            end.unwrap(),
+            seen.iter().map(|(_, left)| left).sum::<usize>(),
+        );
         println!("{saddles:?}: {} points, {:?}", end.points, end.work);
         assert_eq!(end.equilibrium.is_saddle(), !buckled);
         assert_eq!(left > 0, buckled);
+        assert_eq!(end.points, seen.len());
+        assert!(seen.windows(2).all(|pair| pair[0].0 < pair[1].0));
         assert_eq!(COLUMN.tip(&state).x.abs() > 50.0, buckled);
     }
-}
-
-/// Uniform twist: the torque is B3 phi / L.
-#[test]
-fn a_prescribed_turn_of_720_degrees() {
-    let rod = ACTIN;
-    let mut state = rod.state();
-    state.frames.hold(16);
-    let terms = rod.interactions();
-    let mut newton = rod.newton(&state);
-    let mut turn_end = |state: &mut State, t: f64| {
-        let turn = rotation::exp(Vector3::z() * (4.0 * PI * t));
-        state.frames.orientation.set(16, turn);
-    };
-    let solver = (&mut newton, &mut state, &terms);
-    let (end, turns) = followed(PathOptions::default(), solver, &mut turn_end, |p| {
-        p.parameter
-    });
-    let end = end.unwrap();
-    assert_eq!(end.points, turns.len());
-    assert!(turns.windows(2).all(|pair| pair[0] < pair[1]));
-    let mut loads = actin_mechanics::Loads::zeros(&state);
-    for term in &terms {
-        term.add_loads(&state, &mut loads);
-    }
-    // From the wall to the middle of the last segment.
-    let couple = 1.3e4 * 4.0 * PI / 155.0;
-    assert!((loads.torque.get(0).z - couple).abs() < 1e-7 * couple);
-    println!("720 deg: {} points, {:?}", end.points, end.work);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Saddles and lowest modes.
 
 use crate::common;
-use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability, StepSize};
+use actin_equilibrium::{Iteration, Layout, Newton, NewtonOptions, Stability, StepSize};
 use actin_mechanics::{
     Coordinates, Interaction, Loads, PointLoad, SecondOrder, State, Stiffness, Vector3,
 };
@@ -91,6 +91,8 @@ fn a_saddle_is_left_along_its_lowest_mode() {
     let (mut state, _) = compressed(8.0);
     let equilibrium = newton.minimize(&mut state, &terms, 3).unwrap();
     assert!(equilibrium.saddles_left >= 1);
+    let is_indefinite = |step: &Iteration| step.negative_pivots > 0;
+    assert!(equilibrium.history.iter().any(is_indefinite));
     let stability = equilibrium.certificate.unwrap().stability();
     assert_eq!(stability, Stability::Stable);
     assert!(equilibrium.energy < saddle - 1.0);

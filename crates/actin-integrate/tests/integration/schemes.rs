@@ -55,51 +55,6 @@ impl Split for OneDegree {
     }
 }
 
-#[test]
-fn stages_of_each_kind_add_up_to_one() {
-    for scheme in Composition::all() {
-        for stage in [Stage::Drift, Stage::Kick] {
-            let sum: f64 = scheme
-                .stages()
-                .filter(|(kind, _)| *kind == stage)
-                .map(|(_, c)| c)
-                .sum();
-            // Up to six terms of order one.
-            assert!((sum - 1.0).abs() < 1e-15, "{scheme}: {stage:?} sum {sum}");
-        }
-    }
-}
-
-#[test]
-fn tables_are_palindromes_of_odd_length() {
-    for scheme in Composition::all() {
-        let backwards: Vec<f64> = scheme.coefficients().iter().rev().copied().collect();
-        assert_eq!(scheme.coefficients().len() % 2, 1, "{scheme}");
-        // Sums in composed tables are bitwise equal by construction.
-        assert_eq!(scheme.coefficients(), backwards, "{scheme}");
-    }
-}
-
-/// The weights solve `2 t + s = 1`, `2 t^3 + s^3 = 0` and `4 p + s = 1`, `4 p^3 + s^3 = 0`.
-#[test]
-fn weights_cancel_the_cubic_error() {
-    let cubic = |w: f64, n: f64| n * w.powi(3) + (1.0 - n * w).powi(3);
-    let forest_ruth = FOREST_RUTH.coefficients()[1];
-    // Terms of size 5 cancel.
-    assert!(cubic(forest_ruth, 2.0).abs() < 1e-14);
-    assert!(cubic(SUZUKI.coefficients()[1], 4.0).abs() < 1e-15);
-}
-
-#[test]
-fn names_lead_to_tables_and_back() {
-    for scheme in Composition::all() {
-        assert_eq!(Composition::by_name(scheme.name()).unwrap(), scheme);
-        assert!(!scheme.source().is_empty());
-    }
-    let message = Composition::by_name("verlet").unwrap_err().to_string();
-    assert!(message.contains("\"verlet\"") && message.contains("position-verlet"));
-}
-
 /// Matrix of one step of the oscillator `q'' = -q`.
 fn matrix(scheme: &Composition, omega_h: f64) -> [[f64; 2]; 2] {
     let column = |q, p| {

@@ -1,44 +1,7 @@
 use crate::common;
-use actin_integrate::{
-    Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, VELOCITY_VERLET,
-    advance, largest_frequency, stable_step,
-};
-use actin_mechanics::{State, System};
+use actin_integrate::{Composition, Drag, VEFRL, advance, largest_frequency, stable_step};
+use actin_mechanics::System;
 use common::{distance, spinning_tops, vibrating_tops};
-
-fn state_after(scheme: &Composition, time: f64, steps: u32) -> State {
-    let mut system = spinning_tops();
-    let h = time / f64::from(steps);
-    advance(&mut system, scheme, h, steps.into(), &Drag::NONE);
-    system.state().clone()
-}
-
-/// Rotational terms in the kick instead of the drift would reduce the order to 1 or 2.
-#[test]
-fn order_on_a_spinning_state() {
-    let time = 2.0;
-    let reference = state_after(&SUZUKI, time, 4000);
-    // Steps in the asymptotic range, with errors far above rounding (1e-14).
-    for (scheme, steps) in [
-        (POSITION_VERLET, 200),
-        (VELOCITY_VERLET, 200),
-        (PEFRL, 80),
-        (VEFRL, 80),
-        (FOREST_RUTH, 160),
-        (SUZUKI, 80),
-    ] {
-        let error = |steps| distance(&state_after(&scheme, time, steps), &reference);
-        let errors = [error(steps), error(2 * steps), error(4 * steps)];
-        let orders = [
-            (errors[0] / errors[1]).log2(),
-            (errors[1] / errors[2]).log2(),
-        ];
-        assert!(
-            (orders[1] - f64::from(scheme.order())).abs() < 0.05,
-            "{scheme}: {orders:?}"
-        );
-    }
-}
 
 /// The truncation error is 1e-3 at this step; asymmetric tables or drifts would not return to the
 /// start.

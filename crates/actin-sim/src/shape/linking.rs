@@ -144,27 +144,12 @@ fn forward_writhe(tangents: &[Vector3]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Assembly, At, Scene, shape::link};
+    use crate::shape::link;
+    use crate::shape::tests::{CLAMPS, SECTIONS, build};
+    use crate::{Assembly, At, Scene};
     use actin_mechanics::State;
     use actin_mechanics::rotation;
     use actin_mechanics::{Xorshift, perturb};
-
-    const SECTIONS: [&str; 3] = [
-        "Rod(from_nm: 0.0, to_nm: 60.0)",
-        "Ellipsoids(from_nm: 0.0, to_nm: 60.0)",
-        "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0)",
-    ];
-
-    fn build(sections: &str) -> Assembly {
-        let text = format!(
-            "Scene(
-                filament: Filament(sections: [{sections}]),
-                clamps: [Clamp(end: Start), Clamp(end: End)],
-                task: Equilibrium(),
-            )"
-        );
-        Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
-    }
 
     fn shaken(assembly: &Assembly, noise: &mut Xorshift, size: f64) -> State {
         let mut state = assembly.rest.clone();
@@ -187,7 +172,7 @@ mod tests {
     fn twist_and_writhe_add_up_to_a_whole_number() {
         let mut noise = Xorshift::new(11);
         for sections in SECTIONS {
-            let assembly = build(sections);
+            let assembly = build(sections, CLAMPS[2]);
             // With all edges forward, and with some backward.
             for (size, points_forward) in [(0.3, true), (30.0, false)] {
                 let state = shaken(&assembly, &mut noise, size);
@@ -205,26 +190,6 @@ mod tests {
                 assert!((sum - sum.round()).abs() < 1e-11, "{sum}");
             }
         }
-    }
-
-    /// A helix with forward edges has a writhe of its handedness.
-    #[test]
-    fn the_area_of_the_tangents_has_the_right_sign() {
-        let tangent = |k: i32| {
-            let about = rotation::exp(Vector3::z() * (0.3 * f64::from(k)));
-            about * Vector3::new(0.5, 0.0, 1.0).normalize()
-        };
-        let edges: Vec<Vector3> = (0..60).map(tangent).collect();
-        let mut points = vec![Vector3::zeros()];
-        for edge in &edges {
-            points.push(points[points.len() - 1] + edge);
-        }
-        let mut all = vec![Vector3::z()];
-        all.extend(edges);
-        all.push(Vector3::z());
-        let whole = super::super::extended_writhe(&points, [Vector3::z(); 2]);
-        assert!(whole > 0.1, "{whole}");
-        assert!((forward_writhe(&all).unwrap() - whole).abs() < 1e-12);
     }
 
     /// Both methods agree also for ends that are not parallel.
@@ -253,7 +218,7 @@ mod tests {
 
     #[test]
     fn a_joint_past_half_a_turn_loses_one() {
-        let assembly = build(SECTIONS[0]);
+        let assembly = build(SECTIONS[0], CLAMPS[2]);
         let turned = |degrees: f64| {
             let mut state = assembly.rest.clone();
             // Every free segment from 25 nm up to the held wall.

@@ -269,22 +269,10 @@ pub(super) fn is_parallel(one: Vector3, other: Vector3) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
-    use crate::shape::tests::{CLAMPS, SECTIONS};
+    use crate::shape::tests::{CLAMPS, SECTIONS, build};
     use actin_mechanics::rotation;
     use actin_mechanics::testing::move_rigidly;
     use actin_mechanics::{Xorshift, perturb};
-
-    fn build(sections: &str, clamps: &str) -> Assembly {
-        let text = format!(
-            "Scene(
-                filament: Filament(sections: [{sections}]),
-                clamps: [{clamps}],
-                task: Equilibrium(),
-            )"
-        );
-        Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
-    }
 
     #[test]
     fn the_ribbon_of_a_filament_at_rest_is_straight() {
@@ -309,7 +297,7 @@ mod tests {
     #[test]
     fn a_turned_filament_twists_by_its_turn() {
         for sections in SECTIONS {
-            let assembly = build(sections, "Clamp(end: Start), Clamp(end: End)");
+            let assembly = build(sections, CLAMPS[2]);
             let mut state = assembly.rest.clone();
             for (i, info) in assembly.frames.iter().enumerate() {
                 let turn = rotation::exp(Vector3::z() * (0.2 * info.s_nm));

@@ -98,3 +98,11 @@ pub(crate) fn advance(
 pub(crate) fn tip(rod: &RodLayout) -> usize {
     rod.end_point(RodEnd::End)
 }
+
+/// Mean of independent values and its standard error.
+pub(crate) fn mean_and_error(values: &[f64]) -> (f64, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let squares: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
+    (mean, (squares / (n - 1.0) / n).sqrt())
+}
