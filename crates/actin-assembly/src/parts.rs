@@ -216,7 +216,7 @@ impl SectionSpan {
 }
 
 /// Number of bodies and elements of each kind.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Counts {
     /// Monomers, including held monomers.
     pub monomers: usize,

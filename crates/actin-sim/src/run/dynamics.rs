@@ -209,7 +209,8 @@ fn kinetic_limit(assembly: &Assembly, begun_with: f64) -> f64 {
     if !scene.path.is_empty() || work.is_infinite() || assembly.kinetics.is_some() {
         return f64::INFINITY;
     }
-    let heat = thermal_energy(assembly) * (0.5 * assembly.counts().dofs as f64 + THERMAL_EXCESS);
+    let heat = assembly.scene.thermal_energy_pn_nm()
+        * (0.5 * assembly.counts().dofs as f64 + THERMAL_EXCESS);
     let limit = ROOM * (begun_with + work + heat) + LEAST;
     if limit.is_nan() { f64::INFINITY } else { limit }
 }
@@ -217,13 +218,6 @@ fn kinetic_limit(assembly: &Assembly, begun_with: f64) -> f64 {
 /// Returns `true` if a load is constant in time and space and keeps its resultant.
 fn stays(load: &Load) -> bool {
     !load.follows() && load.factor().is_constant() && !matches!(load, Load::Acceleration(_))
-}
-
-fn thermal_energy(assembly: &Assembly) -> f64 {
-    match &assembly.scene.task {
-        Task::Dynamics(dynamics) => dynamics.thermal.map_or(0.0, |t| t.energy_pn_nm()),
-        Task::Brownian(_) | Task::Equilibrium(_) => 0.0,
-    }
 }
 
 fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {

@@ -1,6 +1,5 @@
 //! Filaments in `summary.json`: tips, reactions, shapes.
 
-use super::CountKeys;
 use crate::loads::loads_of;
 use crate::shape::{self, Ribbon};
 use crate::{Assembly, Counts, End, Reaction, Record};
@@ -11,7 +10,6 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FilamentSummary {
     /// Numbers of bodies and elements.
-    #[serde(with = "CountKeys")]
     pub counts: Counts,
     /// Position of the tip (nm, lab frame).
     pub tip_nm: [f64; 3],

@@ -39,7 +39,6 @@ pub struct Summary {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub failure: String,
     /// Numbers of bodies and elements.
-    #[serde(with = "CountKeys")]
     pub counts: Counts,
     /// Simulated time (ns); `None` for equilibria.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -180,16 +179,6 @@ pub struct WorkSummary {
     pub force_evaluations: u64,
     /// Newton iterations; zero in dynamics.
     pub newton_iterations: u64,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Counts")]
-struct CountKeys {
-    monomers: usize,
-    bonds: usize,
-    segments: usize,
-    junctions: usize,
-    dofs: usize,
 }
 
 /// Estimated errors of the resolution.
