@@ -6,7 +6,7 @@ use super::unknowns::layout;
 use super::{Failure, Outcome};
 use crate::scene::{
     Dynamics, Filament, Fluid, FreeTranslation, Load, Resultant, RodLaw, SceneProblem,
-    StopTolerances, Task,
+    StopTolerances,
 };
 use crate::{Assembly, memory};
 use actin_assembly::problem_at;
