@@ -1,6 +1,5 @@
 //! Small mixed filaments and synthetic runs for tests of this crate and of summaries in `actin-sim`.
 
-use crate::names::PICTURES;
 use actin_sim::mechanics::{Xorshift, perturb, randomise_velocities};
 use actin_sim::{Assembly, At, Outcome, Record, Scene, Status, Trajectory};
 use std::path::{Path, PathBuf};
@@ -62,14 +61,18 @@ pub(crate) fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Paths in a run directory with the bytes of files.
+/// Paths in a folder and its subfolders, with the bytes of files.
 pub(crate) fn contents(folder: &Path) -> Vec<(PathBuf, Option<Vec<u8>>)> {
-    let folders = [folder.to_owned(), folder.join(PICTURES)];
-    let entries = folders.iter().flat_map(|f| std::fs::read_dir(f).unwrap());
-    let paths = entries.map(|entry| entry.unwrap().path());
-    let mut all: Vec<_> = paths
-        .map(|path| (path.clone(), std::fs::read(path).ok()))
-        .collect();
+    let (mut all, mut folders) = (Vec::new(), vec![folder.to_owned()]);
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let entry = entry.unwrap();
+            if entry.file_type().unwrap().is_dir() {
+                folders.push(entry.path());
+            }
+            all.push((entry.path(), std::fs::read(entry.path()).ok()));
+        }
+    }
     all.sort();
     all
 }
