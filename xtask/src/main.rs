@@ -29,7 +29,7 @@ enum Task {
     Check,
     /// Builds the wheel of the Python package and checks its size and its manylinux tag.
     Wheel,
-    /// Tests the program with random input, kills and equivalent scenes.
+    /// Tests the program with random input and kills.
     Trials(trials::Options),
     /// Runs a study in the release profile.
     #[command(external_subcommand)]

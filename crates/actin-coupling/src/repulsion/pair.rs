@@ -79,18 +79,28 @@ impl Pair {
     /// Second derivatives with respect to the four ends, from the tangents of all points in
     /// contact (pN/nm).
     pub(super) fn tangents(&self, kernel: &Kernel, tangent: Tangent) -> [[Matrix3; 4]; 4] {
-        let mut blocks = [[Matrix3::zeros(); 4]; 4];
+        // Moments of the tangents with the positions `a` and `b` along the capsules.
+        let [mut one, mut a, mut b, mut aa, mut ab, mut bb] = [Matrix3::zeros(); 6];
         self.touches(kernel, |t| {
             let tangent = tangent(kernel, t.depth, t.d) * t.weight;
-            let [a, b] = t.shares;
-            let factors = [a - 1.0, -a, 1.0 - b, b];
-            for (row, f) in blocks.iter_mut().zip(factors) {
-                for (block, g) in row.iter_mut().zip(factors) {
-                    *block += tangent * (f * g);
-                }
-            }
+            let [at_a, at_b] = t.shares;
+            let (along_a, along_b) = (tangent * at_a, tangent * at_b);
+            one += tangent;
+            a += along_a;
+            b += along_b;
+            aa += along_a * at_a;
+            ab += along_a * at_b;
+            bb += along_b * at_b;
         });
-        blocks
+        // Factors of the ends: a - 1, -a, 1 - b, b.
+        let (a_only, b_only) = (a - ab, b - ab);
+        let neither = one - a - b_only;
+        [
+            [one - a - (a - aa), a - aa, -neither, -b_only],
+            [a - aa, aa, -a_only, -ab],
+            [-neither, -a_only, one - b - (b - bb), b - bb],
+            [-b_only, -ab, b - bb, bb],
+        ]
     }
 }
 
