@@ -77,3 +77,42 @@ fn power_of_held(state: &State, loads: &Loads) -> f64 {
     }
     -gained
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{push_frame, push_point};
+    use crate::{Slider, UnitQuaternion, Vector3};
+
+    #[test]
+    fn loads_work_on_free_bodies_and_along_sliders() {
+        let mut from = State::default();
+        for _ in 0..3 {
+            push_point(&mut from, Vector3::zeros(), 1.0);
+        }
+        push_frame(&mut from, UnitQuaternion::identity(), [1.0; 3]);
+        from.points.hold(1);
+        from.points.hold(2);
+        from.sliders.push(Slider {
+            points: vec![1, 2],
+            directions: vec![Vector3::y()],
+            mass: 1.0,
+        });
+        let mut to = from.clone();
+        to.points.position.set(0, Vector3::new(1.0, 2.0, 3.0));
+        for i in [1, 2] {
+            to.points.position.set(i, Vector3::new(5.0, 0.5, 0.0));
+        }
+        let turned = rotation::exp(Vector3::z() * 0.1);
+        to.frames.orientation.set(0, turned);
+        let (mut a, mut b) = (Loads::zeros(&from), Loads::zeros(&from));
+        a.force.set(0, Vector3::x());
+        b.force.set(0, Vector3::y());
+        a.force.set(1, Vector3::new(9.0, 2.0, 0.0));
+        b.force.set(2, Vector3::new(9.0, 4.0, 0.0));
+        a.torque.set(0, Vector3::z() * 3.0);
+        let expected = (1.0 + 2.0) + 0.5 * (2.0 + 4.0) + 0.3;
+        let work = work_on_free([&a, &b], [&from, &to]);
+        assert!((work - expected).abs() < 1e-14, "{work}");
+    }
+}
