@@ -1,6 +1,7 @@
 //! `cargo xtask extremes`: tests every number of a scene at its limits and writes a table with
 //! pictures. A result must have its stated accuracy, or a message must explain why there is none.
 
+mod directories;
 mod fields;
 #[cfg(test)]
 mod fuzz_tests;
@@ -67,19 +68,20 @@ type Group<'a> = (&'static str, &'a (dyn Fn() -> Vec<Row> + Sync));
 
 /// The table in print order. Tests omit the rows that take long.
 fn table(is_long: bool) -> Vec<Row> {
-    let steps = match (cfg!(test), is_long) {
+    let is_test = cfg!(test);
+    let steps = match (is_test, is_long) {
         (true, _) => 50_000,
         (false, false) => 100_000,
         (false, true) => 10_000_000,
     };
     // Not in parallel with other groups, since the rows measure time and memory.
     let sizes = timed(&("sizes", &|| sizes::sizes(is_long)));
-    let groups: [Group<'_>; 19] = [
+    let groups: [Group<'_>; 20] = [
         ("time steps", &steps::limits),
         ("energy below the limit", &steps::energies),
         ("time steps of scenes", &steps::asked),
         ("stiffness contrast", &loads::contrast),
-        ("twist", &states::twist),
+        ("twist", &|| states::twist(!is_test)),
         ("turns of a segment", &states::one_segment),
         ("turns that slip", &states::slipping),
         ("straight rods", &states::straight),
@@ -94,6 +96,7 @@ fn table(is_long: bool) -> Vec<Row> {
         ("origin", &sizes::origin),
         ("fields", &fields::rows),
         ("guards", &sizes::guards),
+        ("directories", &directories::rows),
     ];
     let rows = groups.par_iter().with_max_len(1).map(timed);
     rows.collect::<Vec<_>>().concat()

@@ -1,13 +1,17 @@
-//! Drag up to 1e4 per ns (terminal velocity, creep, rest), and long undamped motion.
+//! Drag up to 1e6 per ns (momentum, terminal velocity, creep, rest, diffusion, temperature), and long undamped
+//! motion.
 
-use super::row::{CaseResult, Outcome, Row, correct};
+use super::row::{CaseResult, Outcome, Row, correct, larger};
 use super::scenes::{CompletedRun, Parts, free};
 use super::steps::MODELS;
-use actin_integrate::{Drag, PEFRL, advance, largest_frequency, stable_step};
+use actin_integrate::{
+    Bath, Drag, PEFRL, Run, advance, advance_in, largest_frequency, stable_step,
+};
 use actin_mechanics::{State, System, Vector3, Xorshift, randomise_velocities};
 
 /// Damping rates (1/ns). In water they are about 1e2 across a filament and 1e3 about it.
-const RATES: [f64; 6] = [0.0, 1.0, 10.0, 1e2, 1e3, 1e4];
+const RATES: [f64; 7] = [0.0, 1e-3, 1.0, 1e2, 1e4, 1e5, 1e6];
+const LOADED: [f64; 6] = [0.0, 1.0, 10.0, 1e2, 1e3, 1e4];
 
 const LONG: [(&str, &str); 3] = [
     ("rod", "Rod(from_nm: 0.0, to_nm: 100.0)"),
@@ -18,11 +22,20 @@ const LONG: [(&str, &str); 3] = [
     ),
 ];
 
+/// Thermal energy at 298 K (pN nm).
+const KT: f64 = 4.114;
+
 pub(super) fn drag() -> Vec<Row> {
     let mut rows = Vec::new();
     let mut push = |case: String, tried| rows.push(Row::new("drag", case, tried));
-    for (model, sections) in LONG {
+    for (model, sections) in MODELS {
         for rate in RATES {
+            let tried = free(sections).and_then(|system| flight(system, rate));
+            push(format!("{model}, {rate:.0e} per ns"), tried);
+        }
+    }
+    for (model, sections) in LONG {
+        for rate in LOADED {
             let case = |what: &str| format!("{model}, {rate:.0e} per ns, {what}");
             push(case("100 nm pulled by 1 pN"), pulled(sections, rate, None));
             if rate > 0.0 && model != "monomers" {
@@ -30,10 +43,23 @@ pub(super) fn drag() -> Vec<Row> {
             }
         }
     }
-    for rate in &RATES[1..] {
+    for rate in &LOADED[1..] {
         let case = |what: &str| format!("20 nm of rod on a wall, {rate:.0e} per ns, {what}");
         push(case("at rest under 2 pN"), at_rest(*rate));
         push(case("on the way there"), creeping(*rate));
+    }
+    for (model, sections) in MODELS {
+        for rate in &LOADED[3..] {
+            let tried = free(sections).and_then(|system| diffusion(system, *rate));
+            push(
+                format!("{model}, {rate:.0e} per ns, diffusion at 298 K"),
+                tried,
+            );
+        }
+    }
+    for rate in &LOADED[1..] {
+        let tried = free(MODELS[0].1).and_then(|system| temperature(system, *rate));
+        push(format!("rod, {rate:.0e} per ns, temperature"), tried);
     }
     rows
 }
@@ -41,6 +67,33 @@ pub(super) fn drag() -> Vec<Row> {
 fn step(system: &System, share: f64) -> f64 {
     let frequency = largest_frequency(system).expect("loads at rest are finite");
     stable_step(&PEFRL, frequency, share).expect("it is positive")
+}
+
+fn steps(h: f64, time: f64) -> u64 {
+    let run = Run::from_duration(&PEFRL, h, time).expect("steps and times are positive");
+    run.steps()
+}
+
+fn uniform(rate: f64) -> Drag {
+    Drag::new(rate, rate).expect("rates are positive")
+}
+
+/// The momentum decays as `exp(-gamma t)`, independently of the step and of internal forces.
+fn flight(mut system: System, rate: f64) -> CaseResult {
+    let (h, steps) = (step(&system, 0.5), 100);
+    let points = &mut system.state_mut().points;
+    for i in 0..points.len() {
+        points.velocity.set(i, Vector3::new(3.0, -2.0, 1.0));
+    }
+    let start = system.state().momentum();
+    advance(&mut system, &PEFRL, h, steps, &uniform(rate));
+    let expected = start * (-rate * h * steps as f64).exp();
+    if !system.state().is_finite() {
+        return Err(Outcome::Wrong("the state is not finite".into()));
+    }
+    // Round-off of a hundred exponentials and of forces at rest.
+    let error = (system.state().momentum() - expected).norm() / start.norm();
+    correct("momentum exp(-gamma t), of what it was", error, 1e-13)
 }
 
 fn centre(state: &State) -> (f64, Vector3) {
@@ -131,6 +184,68 @@ fn creeping(rate: f64) -> CaseResult {
     let error = (coarse - fine).norm() / fine.norm();
     // h/(2T) with steps of at most 0.003 ns.
     correct("tip against an eighth of the step", error, 0.0015 / time)
+}
+
+/// Compares the mean square displacement of the centre of mass with theory.
+///
+/// ```text
+/// <x^2> = 2 kT/(M g) (t - c (1 - exp(-g t))/g)     along each axis
+/// c     = g h / sinh(g h)                          1 in continuous time
+/// ```
+fn diffusion(mut system: System, rate: f64) -> CaseResult {
+    let (h, samples) = (step(&system, 0.5), 2000);
+    let bath = Bath::new(uniform(rate), KT, 29).expect("it is positive");
+    let g_h = rate * h;
+    // Successive displacements are then independent within a few per cent.
+    let each = steps(h, 10.0 / rate);
+    let mut place = centre(system.state()).1;
+    let mut square = 0.0;
+    for sample in 0..=samples {
+        advance_in(&mut system, &PEFRL, h, each, &bath, sample * each);
+        let next = centre(system.state()).1;
+        // The first displacement includes the transient from rest.
+        if sample > 0 {
+            square += (next - place).norm_squared() / (3 * samples) as f64;
+        }
+        place = next;
+    }
+    let t = each as f64 * h;
+    let slower = g_h / g_h.sinh() * (1.0 - (-rate * t).exp()) / rate;
+    let expected = 2.0 * KT / (centre(system.state()).0 * rate) * (t - slower);
+    // 4.5 standard errors of 6000 squares.
+    let bound = 4.5 * (2.0 / (3 * samples) as f64).sqrt();
+    correct(
+        "mean square of the way",
+        (square / expected - 1.0).abs(),
+        bound,
+    )
+}
+
+/// Compares mean kinetic and strain energies at kT/100 with equipartition. Six of 21 coordinates
+/// are rigid motions.
+fn temperature(mut system: System, rate: f64) -> CaseResult {
+    let (h, kt) = (step(&system, 0.5), 0.01 * KT);
+    let bath = Bath::new(uniform(rate), kt, 31).expect("it is positive");
+    let coordinates = 3.0 * (system.state().points.len() + system.state().frames.len()) as f64;
+    // Relaxation time of the slowest mode, 30 rad/ns.
+    let memory = (rate / 900.0).max(2.0 / rate);
+    let (each, samples) = (steps(h, 0.5 * memory), 1000);
+    let mut now = 20 * each;
+    advance_in(&mut system, &PEFRL, h, now, &bath, 0);
+    let (mut kinetic, mut strain) = (0.0, 0.0);
+    for _ in 0..samples {
+        advance_in(&mut system, &PEFRL, h, each, &bath, now);
+        now += each;
+        kinetic += system.state().kinetic_energy() / f64::from(samples);
+        strain += system.potential_energy() / f64::from(samples);
+    }
+    let error = |energy: f64, count: f64| (energy / (0.5 * kt * count) - 1.0).abs();
+    let largest = larger(
+        error(kinetic, coordinates),
+        error(strain, coordinates - 6.0),
+    );
+    // 4.5 standard errors of 15 modes in 300 independent samples.
+    correct("kinetic energy and strain at kT/100", largest, 0.1)
 }
 
 /// Small filaments with random velocities, or with the centre of mass at rest.

@@ -2,7 +2,7 @@
 //! joint.
 
 use super::row::{CaseResult, Expected, Outcome, Row, correct};
-use super::scenes::{Parts, run, run_to_saddle};
+use super::scenes::{CompletedRun, Parts, run, run_to_saddle};
 use actin_sim::Setting;
 use actin_sim::rod_constants::{TABLE_4_SHEAR, XI_COEFFICIENTS};
 use actin_sim::shape::Ribbon;
@@ -222,6 +222,7 @@ pub(super) fn straight() -> Vec<Row> {
 const LONG_ROD: &str = "Rod(from_nm: 0.0, to_nm: 75.0)";
 const SIX_SEGMENTS: &str = "Rod(from_nm: 0.0, to_nm: 75.0, segments: 6)";
 const ONE_SEGMENT: &str = "Rod(from_nm: 0.0, to_nm: 10.0, segments: 1)";
+const LONG_MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 75.0)";
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 30.0)";
 const BOTH: &str =
     "Rod(from_nm: 0.0, to_nm: 40.0, segments: 4), Ellipsoids(from_nm: 40.0, to_nm: 60.0)";
@@ -246,14 +247,23 @@ fn turned(sections: &str, degrees: f64, statics: &str, ns: Option<f64>) -> Parts
 }
 
 /// Twist over 75 nm; two turns are 90 deg per joint of the rod.
-pub(super) fn twist() -> Vec<Row> {
-    let row = |degrees| {
-        let case = format!("rod, {degrees:+} deg over 75 nm");
-        Row::new("twist", case, uniform(LONG_ROD, 75.0, degrees, None))
-    };
-    [180.0, -180.0, 360.0, -360.0, 720.0, -720.0]
-        .map(row)
-        .to_vec()
+pub(super) fn twist(has_monomers: bool) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for degrees in [180.0, -180.0, 360.0, -360.0, 720.0, -720.0] {
+        let row = |model: &str, tried| {
+            let case = format!("{model}, {degrees:+} deg over 75 nm");
+            Row::new("twist", case, tried)
+        };
+        rows.push(row("rod", uniform(LONG_ROD, 75.0, degrees, None)));
+        if has_monomers {
+            let jumps = certified(degrees, JUMPS);
+            rows.extend([
+                row("monomers", certified(degrees, "Equilibrium()")).expecting(Expected::Sound),
+                row("monomers, across jumps", jumps).expecting(Expected::Sound),
+            ]);
+        }
+    }
+    rows
 }
 
 /// Twist of one segment between two clamps, half of it at each; an error above 180 deg at each
@@ -323,6 +333,24 @@ fn linked(parts: &Parts) -> CaseResult {
 fn uniform(sections: &str, length: f64, degrees: f64, ns: Option<f64>) -> CaseResult {
     let mut ran = turned(sections, degrees, "Equilibrium()", ns).run()?;
     let exact = TWIST * degrees.to_radians() / length;
-    let error = (ran.reaction(1).1.z / exact - 1.0).abs();
+    let error = (couple(&mut ran, 1) / exact - 1.0).abs();
     correct("couple B3 phi / L", error, 1e-8)
+}
+
+fn couple(ran: &mut CompletedRun, clamp: usize) -> f64 {
+    ran.reaction(clamp).1.z
+}
+
+fn certified(degrees: f64, task: &str) -> CaseResult {
+    let mut ran = turned(LONG_MONOMERS, degrees, task, None).run()?;
+    let found = ran.report.equilibrium.as_ref();
+    let negative = found.map(|e| e.certificate.negative);
+    if negative != Some(0) {
+        let message = format!("{negative:?} negative eigenvalues");
+        return Err(Outcome::Wrong(message));
+    }
+    let (near, far) = (couple(&mut ran, 0), couple(&mut ran, 1));
+    // The sliding end has no torque about the axis other than its reaction.
+    let error = (near + far).abs() / far.abs();
+    correct("couples of both ends, stable", error, 1e-4)
 }
