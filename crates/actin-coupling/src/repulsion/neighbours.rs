@@ -212,3 +212,36 @@ fn farthest(
     let squares = from.iter().zip(to).flat_map(moved);
     squares.fold(0.0, f64::max).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use actin_mechanics::Xorshift;
+
+    /// Listed pairs stay complete only if no pair approaches further than this bound.
+    #[test]
+    fn no_image_moves_further_than_the_bound() {
+        let mut noise = Xorshift::new(5);
+        let mut vector = |size: f64| Vector3::from_fn(|_, _| size * noise.sample());
+        let size = Vector3::new(80.0, 90.0, 100.0);
+        for strains in [None, Some([0.0, 0.0]), Some([0.3, 0.3]), Some([0.2, -0.1])] {
+            let lattices = [0, 1].map(|k| strains.map(|s| Lattice { size, strain: s[k] }));
+            let mut largest = 0.0_f64;
+            for _ in 0..200 {
+                let from = [[vector(50.0), vector(50.0)]];
+                let to = [from[0].map(|x| x + vector(3.0))];
+                let index = vector(1.5).map(f64::round);
+                let between = |[[a, b]]: [[Vector3; 2]; 1], lattice: Option<Lattice>| {
+                    a + lattice.map_or(Vector3::zeros(), |one| one.shift(index)) - b
+                };
+                let before = between(from, lattices[0]);
+                let moved = (between(to, lattices[1]) - before).norm();
+                let bound = relative_displacement((&from, &to), lattices, before.norm());
+                assert!(moved <= bound * (1.0 + 1e-12), "{moved} > {bound}");
+                largest = largest.max(moved / bound);
+            }
+            let is_same = strains.is_none_or(|[first, second]| (first - second).abs() < 1e-9);
+            assert!(!is_same || largest > 0.5, "{largest}");
+        }
+    }
+}
