@@ -19,7 +19,7 @@ impl SceneFile {
     pub(super) fn generating_key(&self, key: &str) -> Option<String> {
         if let Some((index, rest)) = element(key, "linkers") {
             let arranged = self.arrangements.iter().map(Arrangement::count);
-            let filaments = self.count_written_filaments() + arranged.sum::<usize>();
+            let filaments = arranged.fold(self.count_written_filaments(), usize::saturating_add);
             let sets = self.linker_sets.iter().map(|set| set.count(filaments));
             let pools = self.crosslinkers.iter().map(|pool| pool.count);
             let group = group(
@@ -57,7 +57,8 @@ fn element<'a>(key: &'a str, list: &str) -> Option<(usize, &'a str)> {
 /// Returns the group of the element `index` of consecutive groups.
 fn group(index: usize, counts: impl Iterator<Item = usize>) -> Option<usize> {
     let mut ends = counts.scan(0, |end, count| {
-        *end += count;
+        // Counts may be out of range here.
+        *end = usize::saturating_add(*end, count);
         Some(*end)
     });
     ends.position(|end| index < end)

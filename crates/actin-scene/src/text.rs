@@ -418,10 +418,11 @@ impl SceneText {
 
     /// Replaces the key of a generated filament or linker by the key that generates it.
     fn with_generating_key(&self, problem: &SceneProblem) -> SceneProblem {
-        let is_body = ["filament", "linkers["]
-            .iter()
-            .any(|list| problem.key.starts_with(list));
-        let written = is_body
+        let mut bodies = ["filament", "linkers["].iter();
+        let is_body = bodies.any(|list| problem.key.starts_with(list));
+        let generators = ["arrangements", "linker_sets", "crosslinkers"];
+        let generates = |key| !self.parsed.root.follow(&super::tree::steps(key)).is_empty();
+        let written = (is_body && generators.into_iter().any(generates))
             .then(|| self.readings::<SceneFile>().value)
             .flatten();
         let key = written.and_then(|written| written.generating_key(&problem.key));
