@@ -8,7 +8,7 @@ use crate::{
     BodyKind, Clamped, Counts, Drive, FilamentSpan, FrameInfo, InterfaceSampling, PointInfo,
     SectionChoice, SectionSpan, Term,
 };
-use actin_coupling::{Linker, LinkerAngles, PeriodicCell, Site};
+use actin_coupling::{Linker, PeriodicCell, Site};
 use actin_mechanics::{ControlId, EnergyBalance, State, System, UnitQuaternion, Vector3};
 use nalgebra::Unit;
 use std::ops::Range;
@@ -41,8 +41,6 @@ pub struct Assembly {
     pub cell: Option<PeriodicCell>,
     /// Linkers in the order of the scene; stepping linkers at their first place.
     pub linkers: Vec<Linker>,
-    /// Stiffness of linkers against tilt and twist.
-    pub angles: Vec<LinkerAngles>,
     /// Centres of beads and their radii (nm), in the order of the scene.
     pub(crate) beads: Vec<(Site, f64)>,
     /// Linkers that bind, unbind or step.

@@ -17,7 +17,7 @@ use super::{
 };
 use crate::cells::Cells;
 use crate::scene::{ClampedEnds, End, Filament, Load, Scene, SceneProblem, Section};
-use actin_coupling::{Linker, LinkerAngles, PeriodicCell, Site};
+use actin_coupling::{Linker, PeriodicCell, Site};
 use actin_mechanics::{ControlId, Interaction, State, System};
 
 use sampled::Sampling;
@@ -118,7 +118,6 @@ struct Builder<'a> {
     loads: Vec<ControlId>,
     cell: Option<PeriodicCell>,
     linkers: Vec<Linker>,
-    angles: Vec<LinkerAngles>,
     beads: Vec<(Site, f64)>,
     kinetics: Option<Kinetics>,
     /// Tables of roaming linkers by the distance of sites and the direction of steps.
@@ -156,7 +155,6 @@ impl<'a> Builder<'a> {
             loads: Vec::new(),
             cell: None,
             linkers: Vec::new(),
-            angles: Vec::new(),
             beads: Vec::new(),
             kinetics: None,
             site_tables: HashMap::new(),
@@ -223,7 +221,6 @@ impl<'a> Builder<'a> {
             loads: self.loads,
             cell: self.cell,
             linkers: self.linkers,
-            angles: self.angles,
             beads: self.beads,
             kinetics: self.kinetics.map(Arc::new),
             energy_balance,

@@ -68,11 +68,7 @@ fn place([x, y, z]: [f64; 3]) -> String {
 }
 
 fn print_linkers(assembly: &Assembly) {
-    let roams = |i: usize| {
-        assembly.scene.linkers[i]
-            .kinetics
-            .is_some_and(|k| k.roams.is_some())
-    };
+    let roams = |i: usize| assembly.scene.linkers[i].roams();
     let roaming = (0..assembly.linkers.len()).filter(|&i| roams(i)).count();
     if roaming > 0 {
         println!("// {roaming} crosslinkers, initially free");

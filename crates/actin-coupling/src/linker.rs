@@ -1,58 +1,18 @@
+use crate::linker_angles::{AnglesAt, vectors, write_vectors};
+use crate::linker_ends::LinkerEnds;
 use crate::site::{Site, ensure};
-use crate::{LinkerError, LinkerKey, PeriodicImage};
+use crate::{LinkerAngles, LinkerEnd, LinkerError, LinkerKey, PeriodicImage};
 use actin_mechanics::{
-    ControlId, Coordinates, Hooke, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State,
-    StepStress, Stiffness, Vector3,
+    ControlId, Hooke, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State, StepStress,
+    Stiffness, Vector3,
 };
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// Distance to a kink of the energy, relative to the negative rest length, below which the stiffness does not grow.
 const CLOSE: f64 = 1e-6;
 
-/// External point at one end of a linker.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Anchor {
-    /// Position without displacement (nm, lab frame).
-    pub position: Vector3,
-    /// Components of the displacement (nm, lab frame), or `None` for a fixed anchor.
-    pub controls: Option<[ControlId; 3]>,
-}
-
-impl Anchor {
-    /// Creates a fixed anchor at `position` (nm, lab frame).
-    pub fn fixed(position: Vector3) -> Self {
-        Self {
-            position,
-            controls: None,
-        }
-    }
-
-    /// Creates a movable anchor at `position` (nm, lab frame) and adds the three controls of its
-    /// displacement to the state.
-    pub fn movable(state: &mut State, position: Vector3) -> Self {
-        Self {
-            position,
-            controls: Some([0.0; 3].map(|component| state.add_control(component))),
-        }
-    }
-
-    /// Current position (nm, lab frame).
-    pub(crate) fn position(&self, state: &State) -> Vector3 {
-        let displacement = self
-            .controls
-            .map(|c| c.map(|component| state.controls[component]));
-        self.position + displacement.map_or_else(Vector3::zeros, Vector3::from)
-    }
-}
-
-/// Second end of a linker.
-#[derive(Clone, Debug, PartialEq)]
-pub enum LinkerEnd {
-    /// External point.
-    Anchor(Anchor),
-    /// Site of the same or another filament.
-    Site(Site),
-}
+/// Components of the random stress of the spring.
+const SPRING: usize = 4;
 
 /// Hookean spring between a site and an anchor or another site: term `linker`, one element.
 ///
@@ -72,10 +32,9 @@ pub enum LinkerEnd {
 /// gradient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linker {
-    site: Site,
-    end: LinkerEnd,
+    ends: LinkerEnds,
     spring: Hooke,
-    image: Option<PeriodicImage>,
+    angles: Option<LinkerAngles>,
 }
 
 impl Linker {
@@ -127,31 +86,82 @@ impl Linker {
             rest_length,
         };
         Ok(Self {
-            site,
-            end,
+            ends: LinkerEnds {
+                site,
+                end,
+                image: None,
+            },
             spring,
-            image: None,
+            angles: None,
         })
     }
 
     /// Joins the linker to a periodic image of its second end.
     #[must_use]
-    pub fn with_image(self, image: Option<PeriodicImage>) -> Self {
-        Self { image, ..self }
+    pub fn with_image(mut self, image: Option<PeriodicImage>) -> Self {
+        self.ends.image = image;
+        self
     }
 
     /// Periodic image of the second end, or `None` for the end itself.
     pub fn image(&self) -> Option<&PeriodicImage> {
-        self.image.as_ref()
+        self.ends.image.as_ref()
     }
 
-    /// Creates a linker from valid parts.
-    pub(crate) fn with_spring(site: Site, end: LinkerEnd, spring: Hooke) -> Self {
+    /// Adds a stiffness against tilt and twist. It has no effect on linkers to anchors and within a monomer or segment.
+    #[must_use]
+    pub fn with_angles(self, angles: Option<LinkerAngles>) -> Self {
+        Self { angles, ..self }
+    }
+
+    /// Stiffness against tilt at each end and against twist (pN nm), free of torques in the configuration `state`.
+    ///
+    /// The direction across the linker is the projection of the third axis of the first frame, the tangent of the filament.
+    ///
+    /// # Errors
+    /// If a stiffness is negative or not finite, or the linker has no length, or does not connect sites of
+    /// two different frames.
+    ///
+    /// ```
+    /// use actin_coupling::{
+    ///     Interaction, Linker, LinkerEnd, RodPlace, Site, State, StraightRod, Vector3, rotation,
+    /// };
+    /// let mut state = State::default();
+    /// let rod = StraightRod::uniform(1, 10.0);
+    /// let (one, other) = (rod.push(&mut state)?, rod.push(&mut state)?);
+    /// for node in other.points() {
+    ///     state.points.position.add(node, Vector3::x() * 20.0);
+    /// }
+    /// let middle = RodPlace { fraction: 0.5, ..RodPlace::default() };
+    /// let end = LinkerEnd::Site(Site::on_rod(&other, middle)?);
+    /// let linker = Linker::new(Site::on_rod(&one, middle)?, end, 1.0, 20.0)?;
+    /// let angles = linker.angles_as_built((60.0, 0.0), &state)?;
+    /// let linker = linker.with_angles(Some(angles));
+    /// // The frame of the first segment turns by 0.1 rad about the filament.
+    /// let frame = one.frames().start;
+    /// state.frames.orientation.set(frame, rotation::exp(Vector3::z() * 0.1));
+    /// assert!((linker.energy(&state) - 60.0 * (1.0 - 0.1_f64.cos())).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn angles_as_built(
+        &self,
+        stiffness: (f64, f64),
+        state: &State,
+    ) -> Result<LinkerAngles, LinkerError> {
+        LinkerAngles::as_built(&self.ends, stiffness, state)
+    }
+
+    /// Stiffness against tilt and twist.
+    pub fn angles(&self) -> Option<&LinkerAngles> {
+        self.angles.as_ref()
+    }
+
+    /// The same linker between other sites.
+    pub(crate) fn between(&self, site: Site, end: LinkerEnd) -> Self {
+        let image = self.ends.image;
         Self {
-            site,
-            end,
-            spring,
-            image: None,
+            ends: LinkerEnds { site, end, image },
+            ..*self
         }
     }
 
@@ -162,17 +172,17 @@ impl Linker {
 
     /// First end.
     pub fn site(&self) -> &Site {
-        &self.site
+        &self.ends.site
     }
 
     /// Second end.
     pub fn end(&self) -> &LinkerEnd {
-        &self.end
+        &self.ends.end
     }
 
     /// Controls of a movable anchor.
     pub fn anchor_controls(&self) -> Option<[ControlId; 3]> {
-        match &self.end {
+        match &self.ends.end {
             LinkerEnd::Anchor(anchor) => anchor.controls,
             LinkerEnd::Site(_) => None,
         }
@@ -180,107 +190,45 @@ impl Linker {
 
     /// Position of the second end or of its image (nm, lab frame).
     pub fn end_position(&self, state: &State) -> Vector3 {
-        let end = match &self.end {
-            LinkerEnd::Anchor(anchor) => anchor.position(state),
-            LinkerEnd::Site(site) => site.position(state),
-        };
-        end + self.image_displacement(end, state)
+        self.ends.second(state)
     }
 
     /// Displacement of the image of the second end from this end (nm, lab frame); zero without periodic images.
     pub fn periodic_displacement(&self, state: &State) -> Vector3 {
-        match &self.end {
-            LinkerEnd::Site(site) => self.image_displacement(site.position(state), state),
-            LinkerEnd::Anchor(_) => Vector3::zeros(),
-        }
-    }
-
-    fn image_displacement(&self, end: Vector3, state: &State) -> Vector3 {
-        self.image.map_or_else(Vector3::zeros, |image| {
-            image.displacement(end - self.site.position(state), state)
-        })
+        self.ends.periodic_displacement(state)
     }
 
     /// Length minus rest length (nm).
     pub fn extension(&self, state: &State) -> f64 {
-        self.reach(state).norm() - self.spring.rest_length
+        self.ends.reach(state).norm() - self.spring.rest_length
     }
 
     /// Force on the filament at the site (pN, lab frame). The force on the other end is opposite.
     pub fn force(&self, state: &State) -> Vector3 {
-        self.spring.force(self.reach(state))
+        let angles = self.angles_at(state);
+        let of_angles = angles.map_or_else(Vector3::zeros, |one| one.force(&one.stresses()));
+        self.spring.force(self.ends.reach(state)) + of_angles
     }
 
-    /// Force of a random stress on the first end (pN, lab frame), to be subtracted from the force of the spring.
+    fn angles_at<'a>(&'a self, state: &'a State) -> Option<AnglesAt<'a>> {
+        self.angles.as_ref()?.at(&self.ends, state)
+    }
+
+    /// Force of a random stress on the first end (pN, lab frame), to be subtracted from the force.
     pub(crate) fn random_force(&self, state: &State, stresses: &[f64]) -> Vector3 {
-        let axis = self.reach(state).try_normalize(0.0).unwrap_or_default();
+        let (of_spring, of_angles) = stresses.split_at(SPRING);
+        let angles = self.angles_at(state);
+        let across = angles.map_or_else(Vector3::zeros, |one| one.force(&vectors(of_angles)));
+        self.random_spring_force(state, of_spring) + across
+    }
+
+    fn random_spring_force(&self, state: &State, stresses: &[f64]) -> Vector3 {
+        let axis = self
+            .ends
+            .reach(state)
+            .try_normalize(0.0)
+            .unwrap_or_default();
         axis * stresses[0] + Vector3::from_column_slice(&stresses[1..])
-    }
-
-    /// Vector from the first to the second end (nm, lab frame).
-    #[inline]
-    pub(crate) fn reach(&self, state: &State) -> Vector3 {
-        self.end_position(state) - self.site.position(state)
-    }
-
-    /// Derivatives of the linker vector with respect to the bodies of each end.
-    pub(crate) fn slopes_of_ends(&self, state: &State) -> [Vec<(Coordinates, Matrix3)>; 2] {
-        let first = self.site.slopes(state).map(|(c, j)| (c, -j)).collect();
-        let second = match &self.end {
-            LinkerEnd::Site(other) => other.slopes(state).collect(),
-            LinkerEnd::Anchor(_) => Vec::new(),
-        };
-        [first, second]
-    }
-
-    /// Adds a force on the first end and the opposite force on the second one (pN, lab frame).
-    pub(crate) fn add_force(&self, force: Vector3, state: &State, loads: &mut Loads) {
-        self.site.add_force(force, state, loads);
-        if let LinkerEnd::Site(other) = &self.end {
-            other.add_force(-force, state, loads);
-        }
-    }
-
-    /// Adds `J^T K J` and the geometric stiffness of the arms. `J` is the derivative of the linker
-    /// vector and `K` the tangent of the force.
-    fn push_stiffness(
-        &self,
-        (force, spring): (Vector3, Matrix3),
-        state: &State,
-        stiffness: &mut Stiffness,
-    ) {
-        let [mut slopes, second] = self.slopes_of_ends(state);
-        let of_site = slopes.len();
-        slopes.extend(second);
-        for (k, &(a, slope_a)) in slopes.iter().enumerate() {
-            stiffness.push(a, a, symmetric(slope_a.transpose() * spring * slope_a));
-            for (l, &(b, slope_b)) in slopes.iter().enumerate().skip(k + 1) {
-                let block = slope_a.transpose() * spring * slope_b;
-                if a == b {
-                    // Both sites follow this body: block and transpose are on the diagonal.
-                    stiffness.push(a, a, block + block.transpose());
-                } else if k < of_site && l >= of_site {
-                    stiffness.push_link(a, b, block);
-                } else {
-                    stiffness.push(a, b, block);
-                }
-            }
-        }
-        self.push_curvature(force, state, stiffness);
-    }
-
-    /// Adds the geometric stiffness of the arms under a force on the first end (pN, lab frame).
-    pub(crate) fn push_curvature(&self, force: Vector3, state: &State, stiffness: &mut Stiffness) {
-        let geometric = |site: &Site, g: Vector3, stiffness: &mut Stiffness| {
-            if site.has_arm() {
-                let frame = Coordinates::Frame(site.frame());
-                stiffness.push(frame, frame, site.curvature_of_work(g, state));
-            }
-        };
-        geometric(&self.site, -force, stiffness);
-        if let LinkerEnd::Site(other) = &self.end {
-            geometric(other, force, stiffness);
-        }
     }
 }
 
@@ -290,7 +238,11 @@ impl Interaction for Linker {
     }
 
     fn add_loads(&self, state: &State, loads: &mut Loads) {
-        self.add_force(self.force(state), state, loads);
+        self.ends
+            .add_force(self.spring.force(self.ends.reach(state)), state, loads);
+        if let Some(angles) = self.angles_at(state) {
+            angles.add_stress(&angles.stresses(), 1.0, loads);
+        }
     }
 
     fn elements(&self) -> usize {
@@ -299,7 +251,8 @@ impl Interaction for Linker {
 
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
         assert_eq!(energies.len(), 1, "a linker is one element");
-        energies[0] = self.spring.energy(self.reach(state));
+        let of_angles = self.angles_at(state).map_or(0.0, |angles| angles.energy());
+        energies[0] = self.spring.energy(self.ends.reach(state)) + of_angles;
     }
 
     fn second_order(&self) -> Option<&dyn SecondOrder> {
@@ -313,9 +266,12 @@ impl Interaction for Linker {
 
 impl SecondOrder for Linker {
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
-        let d = self.reach(state);
+        let d = self.ends.reach(state);
         let of_spring = (self.spring.force(d), self.spring.tangent(d));
-        self.push_stiffness(of_spring, state, stiffness);
+        self.ends.push_stiffness(of_spring, state, stiffness);
+        if let Some(angles) = self.angles_at(state) {
+            angles.push_stiffness(&angles.stresses(), stiffness);
+        }
     }
 }
 
@@ -361,30 +317,45 @@ impl Amplitudes {
 }
 
 /// Four components: a tension `s` with the energy `-s |d|`, which rotates with the linker during the step, and a constant
-/// force `v` with the energy `-v . d`. Linkers without rest length have the force alone, and long ones the tension.
+/// force `v` with the energy `-v . d`. Linkers without rest length have the force alone, and long ones the tension. The
+/// stresses of the angles follow.
 impl RandomStress for Linker {
     fn components(&self) -> usize {
-        4
+        SPRING + self.angles.map_or(0, |_| LinkerAngles::COMPONENTS)
     }
 
     fn draw(&self, _: &State, thermal_energy: f64, stresses: &mut [f64]) {
         let scale = (self.spring.stiffness * thermal_energy).sqrt();
         let of = Amplitudes::new(self.spring.rest_length * self.spring.stiffness / scale);
-        let deviate = Vector3::from_column_slice(&stresses[1..]);
+        let (of_spring, of_angles) = stresses.split_at_mut(SPRING);
+        let deviate = Vector3::from_column_slice(&of_spring[1..]);
         let of_length = of.share * of.force * (Amplitudes::mean_length() - deviate.norm());
-        stresses[0] = scale * (of.tension * stresses[0] + of_length);
-        stresses[1..].copy_from_slice((deviate * (scale * of.force)).as_slice());
+        of_spring[0] = scale * (of.tension * of_spring[0] + of_length);
+        of_spring[1..].copy_from_slice((deviate * (scale * of.force)).as_slice());
+        if let Some(angles) = &self.angles {
+            angles.draw(thermal_energy, of_angles);
+        }
     }
 
     /// Keeps the tension, which changes the rest length.
     fn balance(&self, state: &State, stresses: &mut [f64]) {
-        stresses[1..].fill(0.0);
-        let force = self.force(state) - self.random_force(state, stresses);
-        stresses[1..].copy_from_slice(force.as_slice());
+        let (of_spring, of_angles) = stresses.split_at_mut(SPRING);
+        of_spring[1..].fill(0.0);
+        let tension = self.random_spring_force(state, of_spring);
+        let force = self.spring.force(self.ends.reach(state)) - tension;
+        of_spring[1..].copy_from_slice(force.as_slice());
+        if let Some(angles) = self.angles_at(state) {
+            write_vectors(&angles.stresses(), of_angles);
+        }
     }
 
     fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads) {
-        self.add_force(-self.random_force(state, stresses), state, loads);
+        let (of_spring, of_angles) = stresses.split_at(SPRING);
+        let force = self.random_spring_force(state, of_spring);
+        self.ends.add_force(-force, state, loads);
+        if let Some(angles) = self.angles_at(state) {
+            angles.add_stress(&vectors(of_angles), -1.0, loads);
+        }
     }
 
     fn add_stressed_stiffness(
@@ -393,8 +364,9 @@ impl RandomStress for Linker {
         stress: &StepStress<'_>,
         stiffness: &mut Stiffness,
     ) {
-        let d = self.reach(state);
-        let force = self.spring.force(d) - self.random_force(state, stress.values);
+        let d = self.ends.reach(state);
+        let (of_spring, of_angles) = stress.values.split_at(SPRING);
+        let force = self.spring.force(d) - self.random_spring_force(state, of_spring);
         // A tension is a change of the rest length.
         let spring = Hooke {
             rest_length: self.spring.rest_length + stress.values[0] / self.spring.stiffness,
@@ -407,7 +379,12 @@ impl RandomStress for Linker {
         } else {
             spring.tangent(d)
         };
-        self.push_stiffness((force, tangent), state, stiffness);
+        self.ends.push_stiffness((force, tangent), state, stiffness);
+        if let Some(angles) = self.angles_at(state) {
+            let (own, random) = (angles.stresses(), vectors(of_angles));
+            let rest = std::array::from_fn(|k| own[k] - random[k]);
+            angles.push_stiffness(&rest, stiffness);
+        }
     }
 }
 
@@ -419,10 +396,6 @@ impl RandomStress for Linker {
 fn upper_bound(spring: &Hooke, d: Vector3) -> Matrix3 {
     let length = d.norm().max(-CLOSE * spring.rest_length);
     Matrix3::identity() * (spring.stiffness * (1.0 - spring.rest_length / length))
-}
-
-fn symmetric(m: Matrix3) -> Matrix3 {
-    0.5 * (m + m.transpose())
 }
 
 #[cfg(test)]

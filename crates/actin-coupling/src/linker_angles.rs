@@ -1,40 +1,52 @@
+use crate::linker_ends::LinkerEnds;
 use crate::site::ensure;
-use crate::{Linker, LinkerEnd, LinkerError, LinkerKey};
-use actin_mechanics::{
-    Coordinates, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State, StepStress,
-    Stiffness, Vector3,
-};
+use crate::{LinkerEnd, LinkerError, LinkerKey, Site};
+use actin_mechanics::{Coordinates, Loads, Matrix3, State, Stiffness, Vector3};
 
 /// Numbers per strain vector.
 const VECTOR: usize = 3;
 
-/// Stiffness of a linker between two sites against tilt and twist: term `linker`, one element.
+/// Stiffness of a linker between two sites against tilt and twist.
 ///
 /// ```text
 /// E = k_t |e_1|^2 / 2 + k_t |e_2|^2 / 2 + k_w |e_3|^2 / 2
 /// e_i = Q_i^T f - m_i,   e_3 = Q_1^T Q_2 w - u
 /// ```
 ///
-/// `f` is the direction of the linker (lab frame), and `Q_i` are the frames of the two sites. The
-/// vectors `m_i` (body frames) are the direction of the linker in a reference configuration, and `u` and
-/// `w` are one direction across the linker. `u` is the projection of the third axis of the first frame, the
-/// tangent of the filament. For the angles `a_1`, `a_2` between the linker and its reference directions and
-/// `b` between the two filaments, `E = k_t (2 - cos a_1 - cos a_2) + k_w (1 - cos b)`.
-#[derive(Clone, Debug)]
+/// `f` is the direction of the linker (lab frame), and `Q_i` are the frames of the two sites. `m_i` (body frames) are
+/// the rest directions of the linker, and `u` and `w` are one direction across it. For the angles `a_1`, `a_2` between
+/// the linker and its rest directions and `b` between the two filaments,
+/// `E = k_t (2 - cos a_1 - cos a_2) + k_w (1 - cos b)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkerAngles {
-    linker: Linker,
-    /// Frames of the two sites.
-    frames: [usize; 2],
     /// Stiffness of each strain vector (pN nm).
     stiffness: [f64; 3],
-    /// Reference directions of the linker in both frames.
+    rest: Rest,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Rest {
+    /// Given directions.
+    Given(Directions),
+    /// The linker is normal to both filaments at its sites, and the filaments are parallel.
+    Normal,
+}
+
+/// Rest directions in the frames of both sites.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Directions {
     along: [Vector3; 2],
-    /// Reference directions across the linker in both frames.
     across: [Vector3; 2],
 }
 
-/// Directions at a state.
-struct Directions {
+/// Angles of a linker at a state.
+pub(crate) struct AnglesAt<'a> {
+    ends: &'a LinkerEnds,
+    state: &'a State,
+    /// Frames of the two sites.
+    frames: [usize; 2],
+    stiffness: [f64; 3],
+    rest: Directions,
     /// Length of the linker (nm).
     length: f64,
     /// Unit vector along the linker (lab frame).
@@ -59,54 +71,39 @@ struct Slopes {
 }
 
 impl LinkerAngles {
-    /// Creates the stiffness of a linker against tilt at each end and against twist (pN nm), with the
-    /// reference configuration `state`.
+    /// Components of the random stress.
+    pub(crate) const COMPONENTS: usize = 3 * VECTOR;
+
+    /// Stiffness against tilt at each end and against twist (pN nm) of a linker that is normal to both filaments at rest.
+    ///
+    /// The rest directions are the [normal](Site::with_normal) of the first site and the opposite of the normal of the
+    /// second one. At rest the third axes of both frames are parallel.
     ///
     /// # Errors
-    /// If a stiffness is negative or not finite, or the linker has no length, or does not connect sites of
-    /// two different frames.
-    ///
-    /// ```
-    /// use actin_coupling::{
-    ///     Interaction, Linker, LinkerAngles, LinkerEnd, RodPlace, Site, State, StraightRod, rotation,
-    ///     Vector3,
-    /// };
-    /// let mut state = State::default();
-    /// let rod = StraightRod::uniform(1, 10.0);
-    /// let (one, other) = (rod.push(&mut state)?, rod.push(&mut state)?);
-    /// for node in other.points() {
-    ///     state.points.position.add(node, Vector3::x() * 20.0);
-    /// }
-    /// let middle = RodPlace { fraction: 0.5, ..RodPlace::default() };
-    /// let end = LinkerEnd::Site(Site::on_rod(&other, middle)?);
-    /// let linker = Linker::new(Site::on_rod(&one, middle)?, end, 1.0, 20.0)?;
-    /// let angles = LinkerAngles::new(&linker, (60.0, 0.0), &state)?;
-    /// // The frame of the first segment turns by 0.1 rad about the filament.
-    /// let frame = one.frames().start;
-    /// state.frames.orientation.set(frame, rotation::exp(Vector3::z() * 0.1));
-    /// assert!((angles.energy(&state) - 60.0 * (1.0 - 0.1_f64.cos())).abs() < 1e-12);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn new(
-        linker: &Linker,
-        (tilt, twist): (f64, f64),
-        state: &State,
-    ) -> Result<Self, LinkerError> {
+    /// If a stiffness is negative or not finite.
+    pub fn normal_to_sites((tilt, twist): (f64, f64)) -> Result<Self, LinkerError> {
         for (key, value) in [(LinkerKey::Tilt, tilt), (LinkerKey::Twist, twist)] {
             let holds = value.is_finite() && value >= 0.0;
             ensure(holds, key, value, "finite and not negative")?;
         }
-        let length = linker.reach(state).norm();
+        Ok(Self {
+            stiffness: [tilt, tilt, twist],
+            rest: Rest::Normal,
+        })
+    }
+
+    /// See [`Linker::angles_as_built`](crate::Linker::angles_as_built).
+    pub(crate) fn as_built(
+        ends: &LinkerEnds,
+        stiffness: (f64, f64),
+        state: &State,
+    ) -> Result<Self, LinkerError> {
+        let angles = Self::normal_to_sites(stiffness)?;
+        let length = ends.reach(state).norm();
         ensure(length > 0.0, LinkerKey::Length, length, "positive")?;
-        let LinkerEnd::Site(other) = linker.end() else {
-            return Err(LinkerError::Angles);
-        };
-        let frames = [linker.site().frame(), other.frame()];
-        if frames[0] == frames[1] {
-            return Err(LinkerError::Angles);
-        }
-        let q = frames.map(|i| state.frames.orientation.get(i));
-        let f = linker.reach(state) / length;
+        let sites = sites(ends).ok_or(LinkerError::Angles)?;
+        let q = sites.map(|site| state.frames.orientation.get(site.frame()));
+        let f = ends.reach(state) / length;
         let beside = |axis: Vector3| {
             let lab = q[0] * axis;
             lab - f * f.dot(&lab)
@@ -115,74 +112,109 @@ impl LinkerAngles {
         let [tangent, other] = [Vector3::z(), Vector3::x()].map(beside);
         let across = if tangent.norm() > 0.5 { tangent } else { other }.normalize();
         let in_frames = |lab: Vector3| q.map(|q| q.inverse_transform_vector(&lab));
-        Ok(Self {
-            linker: linker.clone(),
-            frames,
-            stiffness: [tilt, tilt, twist],
+        let rest = Rest::Given(Directions {
             along: in_frames(f),
             across: in_frames(across),
-        })
+        });
+        Ok(Self { rest, ..angles })
     }
 
-    /// Linker whose tilt and twist are resisted.
-    pub fn linker(&self) -> &Linker {
-        &self.linker
-    }
-
-    /// Force on the first site (pN, lab frame). The force on the second one is opposite.
-    pub fn force(&self, state: &State) -> Vector3 {
-        let at = self.directions(state);
-        let slopes = self.strain_slopes(&at);
-        let parts = slopes.iter().zip(self.stresses(&at));
-        parts.map(|(of, stress)| of[0].tr_mul(&stress)).sum()
-    }
-
-    fn directions(&self, state: &State) -> Directions {
-        let d = self.linker.reach(state);
+    /// Angles at a state; `None` within a monomer or segment, and for an anchor.
+    pub(crate) fn at<'a>(&self, ends: &'a LinkerEnds, state: &'a State) -> Option<AnglesAt<'a>> {
+        let sites = sites(ends)?;
+        let d = ends.reach(state);
         let length = d.norm();
         let f = d / length;
+        let frames = sites.map(Site::frame);
         let axes = |i| state.frames.orientation.get(i).to_rotation_matrix();
-        Directions {
+        Some(AnglesAt {
+            ends,
+            state,
+            frames,
+            stiffness: self.stiffness,
+            rest: self.rest.directions(sites),
             length,
             f,
             across: Matrix3::identity() - f * f.transpose(),
-            q: self.frames.map(|i| axes(i).into_inner()),
-        }
+            q: frames.map(|i| axes(i).into_inner()),
+        })
     }
 
-    /// Linker and reference direction across it, in the axes of the first, the second and the first frame.
-    fn seen(&self, at: &Directions) -> [Vector3; 3] {
-        let [a, b] = at.q;
+    /// Scales deviates to random stresses.
+    pub(crate) fn draw(&self, thermal_energy: f64, stresses: &mut [f64]) {
+        for (own, k) in stresses.chunks_mut(VECTOR).zip(self.stiffness) {
+            for stress in own {
+                *stress *= (k * thermal_energy).sqrt();
+            }
+        }
+    }
+}
+
+/// Sites of a linker in two different frames.
+fn sites(ends: &LinkerEnds) -> Option<[&Site; 2]> {
+    match &ends.end {
+        LinkerEnd::Site(other) if other.frame() != ends.site.frame() => Some([&ends.site, other]),
+        LinkerEnd::Site(_) | LinkerEnd::Anchor(_) => None,
+    }
+}
+
+impl Rest {
+    fn directions(self, [first, second]: [&Site; 2]) -> Directions {
+        match self {
+            Self::Given(directions) => directions,
+            Self::Normal => Directions {
+                along: [first.normal(), -second.normal()],
+                across: [Vector3::z(); 2],
+            },
+        }
+    }
+}
+
+impl AnglesAt<'_> {
+    /// Energy (pN nm).
+    pub(crate) fn energy(&self) -> f64 {
+        let parts = self.strains().into_iter().zip(self.stiffness);
+        parts
+            .map(|(strain, k)| 0.5 * k * strain.norm_squared())
+            .sum()
+    }
+
+    /// Force of stresses on the first site (pN, lab frame). The force on the second one is opposite.
+    pub(crate) fn force(&self, stresses: &[Vector3; 3]) -> Vector3 {
+        gradient(&self.strain_slopes(), stresses, 0)
+    }
+
+    /// Linker and rest direction across it, in the axes of the first, the second and the first frame.
+    fn seen(&self) -> [Vector3; 3] {
+        let [a, b] = self.q;
+        let across = self.rest.across[1];
         [
-            a.tr_mul(&at.f),
-            b.tr_mul(&at.f),
-            a.tr_mul(&(b * self.across[1])),
+            a.tr_mul(&self.f),
+            b.tr_mul(&self.f),
+            a.tr_mul(&(b * across)),
         ]
     }
 
     /// Strain vectors.
-    fn strains(&self, at: &Directions) -> [Vector3; 3] {
-        let [first, second, beside] = self.seen(at);
-        [
-            first - self.along[0],
-            second - self.along[1],
-            beside - self.across[0],
-        ]
+    fn strains(&self) -> [Vector3; 3] {
+        let [first, second, beside] = self.seen();
+        let Directions { along, across } = &self.rest;
+        [first - along[0], second - along[1], beside - across[0]]
     }
 
     /// Stresses of the strains (pN nm).
-    fn stresses(&self, at: &Directions) -> [Vector3; 3] {
-        let strains = self.strains(at);
+    pub(crate) fn stresses(&self) -> [Vector3; 3] {
+        let strains = self.strains();
         std::array::from_fn(|k| strains[k] * self.stiffness[k])
     }
 
     /// Derivatives of each strain vector with respect to the linker vector and both rotations (body axes).
-    fn strain_slopes(&self, at: &Directions) -> [[Matrix3; 3]; 3] {
-        let [a, b] = at.q;
-        let [first, second, beside] = self.seen(at);
+    fn strain_slopes(&self) -> [[Matrix3; 3]; 3] {
+        let [a, b] = self.q;
+        let [first, second, beside] = self.seen();
         let zero = Matrix3::zeros();
-        let by_vector = |q: Matrix3| q.transpose() * at.across / at.length;
-        let turned = -(a.transpose() * b * self.across[1].cross_matrix());
+        let by_vector = |q: Matrix3| q.transpose() * self.across / self.length;
+        let turned = -(a.transpose() * b * self.rest.across[1].cross_matrix());
         [
             [by_vector(a), first.cross_matrix(), zero],
             [by_vector(b), zero, second.cross_matrix()],
@@ -190,23 +222,21 @@ impl LinkerAngles {
         ]
     }
 
-    /// Adds the loads `-sum s . de/dq` of stresses `s`.
-    fn add_stress(&self, stresses: &[Vector3; 3], sign: f64, state: &State, loads: &mut Loads) {
-        let slopes = self.strain_slopes(&self.directions(state));
-        let gradient = |variable: usize| -> Vector3 {
-            let parts = slopes.iter().zip(stresses);
-            parts.map(|(of, stress)| of[variable].tr_mul(stress)).sum()
-        };
-        self.linker.add_force(gradient(0) * sign, state, loads);
+    /// Adds the loads `-sum s . de/dq` of stresses `s`, times `sign`.
+    pub(crate) fn add_stress(&self, stresses: &[Vector3; 3], sign: f64, loads: &mut Loads) {
+        let slopes = self.strain_slopes();
+        let force = gradient(&slopes, stresses, 0) * sign;
+        self.ends.add_force(force, self.state, loads);
         for (k, frame) in self.frames.into_iter().enumerate() {
-            loads.torque.add(frame, gradient(k + 1) * -sign);
+            let torque = gradient(&slopes, stresses, k + 1) * -sign;
+            loads.torque.add(frame, torque);
         }
     }
 
     /// Second derivatives of `sum s . e` for constant stresses `s`.
-    fn curvature(&self, at: &Directions, stresses: &[Vector3; 3]) -> Second {
-        let [a, b] = at.q;
-        let seen = self.seen(at);
+    fn curvature(&self, stresses: &[Vector3; 3]) -> Second {
+        let [a, b] = self.q;
+        let seen = self.seen();
         let mut second = Second::default();
         let turning = |c: Vector3, v: Vector3| {
             let product = c * v.transpose();
@@ -215,14 +245,14 @@ impl LinkerAngles {
         for (k, q) in [a, b].into_iter().enumerate() {
             let c = stresses[k];
             let g = q * c;
-            let beside = at.across * g;
-            let outer = at.f * beside.transpose();
-            let along = at.across * g.dot(&at.f) + outer + outer.transpose();
-            second.0[0][0] -= along / (at.length * at.length);
-            second.0[0][k + 1] -= at.across * q * c.cross_matrix() / at.length;
+            let beside = self.across * g;
+            let outer = self.f * beside.transpose();
+            let along = self.across * g.dot(&self.f) + outer + outer.transpose();
+            second.0[0][0] -= along / (self.length * self.length);
+            second.0[0][k + 1] -= self.across * q * c.cross_matrix() / self.length;
             second.0[k + 1][k + 1] += turning(c, seen[k]);
         }
-        let (c, w) = (stresses[2], self.across[1]);
+        let (c, w) = (stresses[2], self.rest.across[1]);
         let relative = a.transpose() * b;
         second.0[1][1] += turning(c, seen[2]);
         second.0[2][2] += turning(relative.tr_mul(&c), w);
@@ -231,10 +261,9 @@ impl LinkerAngles {
     }
 
     /// Adds the stiffness of the strains, and the geometric stiffness of `stresses`.
-    fn push_stiffness(&self, state: &State, stresses: &[Vector3; 3], stiffness: &mut Stiffness) {
-        let at = self.directions(state);
-        let slopes = self.strain_slopes(&at);
-        let mut second = self.curvature(&at, stresses);
+    pub(crate) fn push_stiffness(&self, stresses: &[Vector3; 3], stiffness: &mut Stiffness) {
+        let slopes = self.strain_slopes();
+        let mut second = self.curvature(stresses);
         for (of, k) in slopes.iter().zip(self.stiffness) {
             for i in 0..3 {
                 for j in i..3 {
@@ -242,7 +271,7 @@ impl LinkerAngles {
                 }
             }
         }
-        let bodies = self.slopes(state);
+        let bodies = self.slopes();
         for (k, first) in bodies.iter().enumerate() {
             for other in &bodies[k..] {
                 let block = second.between(first, other);
@@ -259,15 +288,14 @@ impl LinkerAngles {
                 }
             }
         }
-        let parts = slopes.iter().zip(stresses);
-        let force: Vector3 = parts.map(|(of, stress)| of[0].tr_mul(stress)).sum();
-        self.linker.push_curvature(force, state, stiffness);
+        let force = gradient(&slopes, stresses, 0);
+        self.ends.push_curvature(force, self.state, stiffness);
     }
 
-    fn slopes(&self, state: &State) -> Vec<Slopes> {
+    fn slopes(&self) -> Vec<Slopes> {
         let (zero, one) = (Matrix3::zeros(), Matrix3::identity());
         let mut all: Vec<Slopes> = Vec::new();
-        for (k, slopes) in self.linker.slopes_of_ends(state).into_iter().enumerate() {
+        for (k, slopes) in self.ends.slopes_of_ends(self.state).into_iter().enumerate() {
             let frame = Coordinates::Frame(self.frames[k]);
             let mut turned = [zero; 3];
             turned[k + 1] = one;
@@ -310,82 +338,19 @@ impl Second {
     }
 }
 
-fn vectors(stresses: &[f64]) -> [Vector3; 3] {
+/// Sum `s . de/dq` of all strain vectors for one variable: the linker vector or a rotation.
+fn gradient(slopes: &[[Matrix3; 3]; 3], stresses: &[Vector3; 3], variable: usize) -> Vector3 {
+    let parts = slopes.iter().zip(stresses);
+    parts.map(|(of, stress)| of[variable].tr_mul(stress)).sum()
+}
+
+/// Components of a random stress as three vectors.
+pub(crate) fn vectors(stresses: &[f64]) -> [Vector3; 3] {
     std::array::from_fn(|k| Vector3::from_column_slice(&stresses[VECTOR * k..VECTOR * (k + 1)]))
 }
 
-impl Interaction for LinkerAngles {
-    fn term(&self) -> &'static str {
-        "linker"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        let stresses = self.stresses(&self.directions(state));
-        self.add_stress(&stresses, 1.0, state, loads);
-    }
-
-    fn elements(&self) -> usize {
-        1
-    }
-
-    fn write_energies(&self, state: &State, energies: &mut [f64]) {
-        assert_eq!(energies.len(), 1, "a linker is one element");
-        let at = self.directions(state);
-        let parts = self.strains(&at).into_iter().zip(self.stiffness);
-        energies[0] = parts
-            .map(|(strain, k)| 0.5 * k * strain.norm_squared())
-            .sum();
-    }
-
-    fn second_order(&self) -> Option<&dyn SecondOrder> {
-        Some(self)
-    }
-
-    fn random_stress(&self) -> Option<&dyn RandomStress> {
-        Some(self)
-    }
-}
-
-impl SecondOrder for LinkerAngles {
-    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
-        let stresses = self.stresses(&self.directions(state));
-        self.push_stiffness(state, &stresses, stiffness);
-    }
-}
-
-impl RandomStress for LinkerAngles {
-    fn components(&self) -> usize {
-        VECTOR * self.stiffness.len()
-    }
-
-    fn draw(&self, _state: &State, thermal_energy: f64, stresses: &mut [f64]) {
-        for (own, k) in stresses.chunks_mut(VECTOR).zip(self.stiffness) {
-            for stress in own {
-                *stress *= (k * thermal_energy).sqrt();
-            }
-        }
-    }
-
-    fn balance(&self, state: &State, stresses: &mut [f64]) {
-        let own = self.stresses(&self.directions(state));
-        for (to, stress) in stresses.chunks_mut(VECTOR).zip(own) {
-            to.copy_from_slice(stress.as_slice());
-        }
-    }
-
-    fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads) {
-        self.add_stress(&vectors(stresses), -1.0, state, loads);
-    }
-
-    fn add_stressed_stiffness(
-        &self,
-        state: &State,
-        stress: &StepStress<'_>,
-        stiffness: &mut Stiffness,
-    ) {
-        let own = self.stresses(&self.directions(state));
-        let random = vectors(stress.values);
-        let rest = std::array::from_fn(|k| own[k] - random[k]);
-        self.push_stiffness(state, &rest, stiffness);
+pub(crate) fn write_vectors(from: &[Vector3; 3], stresses: &mut [f64]) {
+    for (to, stress) in stresses.chunks_mut(VECTOR).zip(from) {
+        to.copy_from_slice(stress.as_slice());
     }
 }

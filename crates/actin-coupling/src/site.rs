@@ -18,6 +18,7 @@ pub struct Site {
     points: usize,
     frame: usize,
     arm: Vector3,
+    normal: Vector3,
 }
 
 /// Position of a site on a rod, for [`Site::on_rod`].
@@ -54,7 +55,8 @@ impl RodPlace {
 }
 
 impl Site {
-    /// Creates a site on a monomer: `r = x + Q b` with the arm `b` (nm, body frame).
+    /// Creates a site on a monomer: `r = x + Q b` with the arm `b` (nm, body frame). Its normal is the part of the arm
+    /// across the third axis, or the first axis.
     ///
     /// # Errors
     /// If the arm is not finite.
@@ -81,14 +83,19 @@ impl Site {
             points: 1,
             frame,
             arm,
+            normal: (arm - Vector3::z() * arm.z)
+                .try_normalize(0.0)
+                .unwrap_or_else(Vector3::x),
         })
     }
 
     /// Creates a site on segment `i` of a rod:
     ///
     /// ```text
-    /// r = (1 - A) x_i + A x_{i+1} + R Q_i (cos phi, sin phi, 0)
+    /// r = (1 - A) x_i + A x_{i+1} + R Q_i n,   n = (cos phi, sin phi, 0)
     /// ```
+    ///
+    /// Its normal is `n`.
     ///
     /// # Errors
     /// If the segment does not exist, the fraction is outside 0 to 1, the radius is negative, or
@@ -119,12 +126,25 @@ impl Site {
         ensure(azimuth.is_finite(), LinkerKey::Azimuth, azimuth, "finite")?;
         let node = layout.points().start + segment;
         let (sin, cos) = azimuth.sin_cos();
+        let normal = Vector3::new(cos, sin, 0.0);
         Ok(Self {
             shares: [(node, 1.0 - fraction), (node + 1, fraction)],
             points: 2,
             frame: layout.frames().start + segment,
-            arm: Vector3::new(radius * cos, radius * sin, 0.0),
+            arm: normal * radius,
+            normal,
         })
+    }
+
+    /// Changes the normal (unit vector, body frame).
+    #[must_use]
+    pub fn with_normal(self, normal: Vector3) -> Self {
+        Self { normal, ..self }
+    }
+
+    /// Direction away from the axis of the filament (unit vector, body frame).
+    pub fn normal(&self) -> Vector3 {
+        self.normal
     }
 
     /// Points with their weights.

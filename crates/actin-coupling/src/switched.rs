@@ -1,7 +1,6 @@
 use crate::{Linker, LinkerEnd, PeriodicImage, Site};
 use actin_mechanics::{
-    ControlId, Hooke, Interaction, Loads, RandomStress, SecondOrder, State, StepStress, Stiffness,
-    Vector3,
+    ControlId, Interaction, Loads, RandomStress, SecondOrder, State, StepStress, Stiffness, Vector3,
 };
 use std::sync::Arc;
 
@@ -21,8 +20,8 @@ pub struct Hand {
 pub struct SwitchedLinker {
     hand: Hand,
     other: OtherEnd,
-    spring: Hooke,
-    image: Option<PeriodicImage>,
+    /// Linker at the sites of its construction.
+    built: Linker,
     /// Random force on the first end in the last step (pN, lab frame).
     random: [ControlId; 3],
 }
@@ -80,14 +79,14 @@ impl Hand {
 }
 
 impl SwitchedLinker {
-    /// Creates a linker from a hand to a fixed end, with the spring and the image of `linker`,
+    /// Creates a linker from a hand to a fixed end, with the springs and the image of `linker`,
     /// and adds the controls of its random force to the state.
     pub fn to_end(state: &mut State, hand: Hand, linker: &Linker) -> Self {
         let other = OtherEnd::Fixed(linker.end().clone());
         Self::new(state, hand, other, linker)
     }
 
-    /// Creates a linker with two hands and the spring and the image of `linker`, and adds the
+    /// Creates a linker with two hands and the springs and the image of `linker`, and adds the
     /// controls of its random force to the state.
     pub fn between_hands(state: &mut State, [hand, other]: [Hand; 2], linker: &Linker) -> Self {
         Self::new(state, hand, OtherEnd::Hand(other), linker)
@@ -97,8 +96,7 @@ impl SwitchedLinker {
         Self {
             hand,
             other,
-            spring: *linker.spring(),
-            image: linker.image().copied(),
+            built: linker.clone(),
             random: [0.0; 3].map(|zero| state.add_control(zero)),
         }
     }
@@ -123,7 +121,7 @@ impl SwitchedLinker {
 
     /// Periodic image of the second end, or `None` for the end itself.
     pub fn image(&self) -> Option<&PeriodicImage> {
-        self.image.as_ref()
+        self.built.image()
     }
 
     /// Returns `true` if all hands are bound.
@@ -150,7 +148,7 @@ impl SwitchedLinker {
             OtherEnd::Fixed(end) => end.clone(),
             OtherEnd::Hand(hand) => LinkerEnd::Site(hand.sites[sites[1]]),
         };
-        Linker::with_spring(self.hand.sites[sites[0]], end, self.spring).with_image(self.image)
+        self.built.between(self.hand.sites[sites[0]], end)
     }
 }
 
@@ -188,7 +186,7 @@ impl Interaction for SwitchedLinker {
 
 impl RandomStress for SwitchedLinker {
     fn components(&self) -> usize {
-        4
+        self.built.components()
     }
 
     fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]) {

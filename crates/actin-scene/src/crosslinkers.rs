@@ -53,6 +53,14 @@ pub(crate) struct Crosslinkers {
     /// sites follow the helix, and crosslinkers transmit torsion.
     #[serde(default)]
     pub radius_nm: f64,
+    /// Stiffness `k` against tilt at both ends: the energy of each end is `k (1 - cos a)` for the angle `a` between the
+    /// crosslinker and the normal of the filament at the site; at least 0. Requires `radius_nm` and `rest_length_nm`.
+    #[serde(default)]
+    pub tilt_pn_nm: f64,
+    /// Stiffness `k` against twist: the energy is `k (1 - cos b)` for the angle `b` between the directions of both
+    /// filaments; at least 0. Antiparallel filaments have the energy `2 k`.
+    #[serde(default)]
+    pub twist_pn_nm: f64,
     /// Averaging time of forces, see `Kinetics`.
     #[serde(default)]
     pub averaging_ns: Option<f64>,
@@ -90,6 +98,8 @@ impl Crosslinkers {
         Linker {
             to,
             rest_length_nm: self.rest_length_nm,
+            tilt_pn_nm: self.tilt_pn_nm,
+            twist_pn_nm: self.twist_pn_nm,
             kinetics: Some(self.kinetics()),
             ..Linker::new(self.site(0.0), self.stiffness_pn_per_nm)
         }
@@ -126,6 +136,8 @@ impl Crosslinkers {
             stiffness_pn_per_nm: linker.stiffness_pn_per_nm,
             rest_length_nm: linker.rest_length_nm,
             radius_nm: linker.radius_nm,
+            tilt_pn_nm: linker.tilt_pn_nm,
+            twist_pn_nm: linker.twist_pn_nm,
             attach_per_ns: roams.attach_per_ns,
             bind_per_ns: forms.rate_per_ns,
             reach_nm: Some(forms.reach_nm),

@@ -220,7 +220,7 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     }
     let filament = scene.filament_at(linker.filament);
     let length = filament.map_or(0.0, super::Filament::length_nm);
-    if kinetics.roams.is_some() {
+    if linker.roams() {
         check_pool(scene, linker, &key)?;
     }
     kinetics.check(&key, length)
@@ -233,12 +233,7 @@ fn check_pool(scene: &Scene, linker: &Linker, key: &str) -> Result<(), SceneProb
         let rule = "requires a linker between two sites: write to";
         return Err(SceneProblem::new(key, "", rule));
     }
-    let roams = |linker: &Linker| {
-        linker
-            .kinetics
-            .is_some_and(|kinetics| kinetics.roams.is_some())
-    };
-    let first = scene.linkers.iter().find(|linker| roams(linker));
+    let first = scene.linkers.iter().find(|linker| linker.roams());
     let is_first = first.is_some_and(|first| std::ptr::eq(first, linker));
     if is_first && scene.thermal_energy_pn_nm() <= 0.0 {
         let rule = "the rate of binding depends on the temperature: write a positive temperature_k or thermal";

@@ -42,7 +42,7 @@ pub struct Linker {
     pub rest_length_nm: f64,
     /// Stiffness `k` against tilt at both ends: the energy of each end is `k (1 - cos a)` for the angle `a` between the
     /// linker and its direction as built, which follows the monomer or segment; at least 0. Requires `to`, no
-    /// `kinetics`, and two sites apart in different monomers or segments.
+    /// `steps`, and two sites apart in different monomers or segments. For linkers that roam, see `Crosslinkers`.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub tilt_pn_nm: f64,
     /// Stiffness `k` against twist: the energy is `k (1 - cos b)` for the change `b` of the angle between the two
@@ -121,6 +121,12 @@ impl Linker {
         ]
     }
 
+    /// Returns whether both ends bind to any site of any filament.
+    pub fn roams(&self) -> bool {
+        self.kinetics
+            .is_some_and(|kinetics| kinetics.roams.is_some())
+    }
+
     /// Returns the key of the other end.
     pub fn end_key(&self) -> &'static str {
         match (self.to, self.anchor_nm) {
@@ -153,12 +159,7 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     let key = |name: &str| format!("linkers[{i}].{name}");
     check_site(scene, &format!("linkers[{i}]"), &linker.site())?;
     check_one_end(i, linker)?;
-    for (name, stiffness) in linker.angular() {
-        if stiffness > 0.0 && (linker.to.is_none() || linker.kinetics.is_some()) {
-            let rule = "requires a linker between two sites (`to`) without `kinetics`";
-            return Err(SceneProblem::new(key(name), show(stiffness), rule));
-        }
-    }
+    check_angular(i, linker)?;
     if let Some(other) = &linker.to {
         check_site(scene, &key("to"), other)?;
         if other.is_at(&linker.site()) && linker.image == [0; 3] {
@@ -167,6 +168,29 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
         }
     }
     kinetics::check(scene, i, linker)
+}
+
+fn check_angular(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
+    let [tilt, twist] = linker.angular();
+    let refused = |(name, stiffness): (&str, f64), rule: &str| {
+        let key = format!("linkers[{i}].{name}");
+        Err(SceneProblem::new(key, show(stiffness), rule))
+    };
+    let has_steps = linker
+        .kinetics
+        .is_some_and(|kinetics| kinetics.steps.is_some());
+    for one in [tilt, twist] {
+        if one.1 > 0.0 && (linker.to.is_none() || has_steps && !linker.roams()) {
+            let rule = "requires a linker between two sites (`to`) without `steps`";
+            return refused(one, rule);
+        }
+    }
+    let is_directed = linker.radius_nm > 0.0 && linker.rest_length_nm > 0.0;
+    if linker.roams() && tilt.1 > 0.0 && !is_directed {
+        let rule = "requires positive radius_nm and rest_length_nm: crosslinkers are normal to filaments at their sites";
+        return refused(tilt, rule);
+    }
+    Ok(())
 }
 
 fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {

@@ -95,7 +95,7 @@ impl LinkersBetween {
                  pairs of sites within reach: increase reach_nm or reduce site_spacing_nm"
             );
             let key = format!("linker_sets[{k}].per_filament");
-SceneProblem::new(key, self.per_filament, rule)
+            SceneProblem::new(key, self.per_filament, rule)
         })?;
         Ok(pairs
             .iter()
@@ -111,15 +111,6 @@ SceneProblem::new(key, self.per_filament, rule)
     ) -> Result<(), SceneProblem> {
         let key = |name: &str| format!("linker_sets[{k}].{name}");
         check_reach(&key("reach_nm"), self.reach_nm, periodic)?;
-        for (name, stiffness) in [
-            ("tilt_pn_nm", self.tilt_pn_nm),
-            ("twist_pn_nm", self.twist_pn_nm),
-        ] {
-            if stiffness > 0.0 && self.kinetics.is_some() {
-                let rule = "requires linkers without `kinetics`";
-                return Err(SceneProblem::new(key(name), stiffness, rule));
-            }
-        }
         let length: f64 = filaments.iter().map(Filament::length_nm).sum();
         let sites = length / self.site_spacing_nm;
         if sites.is_finite() && sites <= MOST_SITES {

@@ -32,11 +32,9 @@ impl Builder<'_> {
             let controls = has_anchor.then(|| [0.0; 3].map(|value| state.add_control(value)));
             let built = self.linker((i, linker), controls, &mut nodes)?;
             match linker.kinetics {
-                None => {
-                    self.stock
-                        .push_term(Box::new(built.clone()), Part::Linker(i));
-                    self.push_angles((i, linker), &built)?;
-                }
+                None => self
+                    .stock
+                    .push_term(Box::new(built.clone()), Part::Linker(i)),
                 Some(kinetics) => self.push_switched((i, linker), kinetics, &built, &mut nodes)?,
             }
             self.linkers.push(built);
@@ -44,25 +42,26 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Pushes the stiffness of linker `i` against tilt and twist, if it has any.
-    fn push_angles(
-        &mut self,
+    /// Stiffness of linker `i` against tilt and twist, if it has any.
+    fn angles(
+        &self,
         (i, linker): (usize, &scene::Linker),
         built: &Linker,
-    ) -> Result<(), SceneProblem> {
+    ) -> Result<Option<LinkerAngles>, SceneProblem> {
         let [tilt, twist] = linker.angular();
-        let Some((name, _)) = [tilt, twist]
-            .into_iter()
-            .find(|(_, stiffness)| *stiffness > 0.0)
-        else {
-            return Ok(());
+        let mut stiff = [tilt, twist].into_iter().filter(|one| one.1 > 0.0);
+        let Some((name, _)) = stiff.next() else {
+            return Ok(None);
         };
-        let angles = LinkerAngles::new(built, (tilt.1, twist.1), &self.stock.state);
-        let angles = angles.map_err(problem_at(format!("linkers[{i}].{name}")))?;
-        self.stock
-            .push_term(Box::new(angles.clone()), Part::Linker(i));
-        self.angles.push(angles);
-        Ok(())
+        let stiffness = (tilt.1, twist.1);
+        let angles = if linker.roams() {
+            LinkerAngles::normal_to_sites(stiffness)
+        } else {
+            built.angles_as_built(stiffness, &self.stock.state)
+        };
+        angles
+            .map(Some)
+            .map_err(problem_at(format!("linkers[{i}].{name}")))
     }
 
     /// Pushes the centres of beads.
@@ -109,7 +108,7 @@ impl Builder<'_> {
         let table = table.map_err(problem_at(format!("linkers[{i}]")))?;
         let state = &mut self.stock.state;
         let hand = Hand::new(state, Arc::clone(&table.sites), 0, kinetics.bound);
-        let switched = if kinetics.roams.is_some() {
+        let switched = if linker.roams() {
             let other = Hand::new(state, Arc::clone(&table.sites), 0, kinetics.bound);
             SwitchedLinker::between_hands(state, [hand, other], built)
         } else {
@@ -198,14 +197,13 @@ impl Builder<'_> {
                 "puts the anchor at the site: a linker with a rest length needs a direction",
             ));
         }
-        Ok(built)
+        let angles = self.angles((i, linker), &built)?;
+        Ok(built.with_angles(angles))
     }
 
     /// Image of the second end: as written, or the nearest one for hands that roam.
     fn image(&self, linker: &scene::Linker) -> Option<PeriodicImage> {
-        let roams = linker
-            .kinetics
-            .is_some_and(|kinetics| kinetics.roams.is_some());
+        let roams = linker.roams();
         Some(PeriodicImage {
             cell: self.cell.filter(|_| roams || linker.image != [0; 3])?,
             index: (!roams).then_some(linker.image),
@@ -240,19 +238,20 @@ impl Builder<'_> {
             }
             Body::Monomers(monomers) => {
                 let (sin, cos) = azimuth.sin_cos();
-                let place = Vector3::new(at.radius_nm * cos, at.radius_nm * sin, s_nm);
-                self.on_monomer(strand, monomers, place)
+                let normal = Vector3::new(cos, sin, 0.0);
+                let place = normal * at.radius_nm + Vector3::z() * s_nm;
+                self.on_monomer(strand, monomers, (place, normal))
             }
         }
     }
 
-    /// Site fixed in the nearest monomer, at a position (nm) relative to the straight filament
-    /// along +z from the origin.
+    /// Site fixed in the nearest monomer, at a position (nm) with a normal, relative to the straight filament along +z
+    /// from the origin.
     fn on_monomer(
         &self,
         strand: &Strand<'_>,
         monomers: &Monomers,
-        place: Vector3,
+        (place, normal): (Vector3, Vector3),
     ) -> Result<Site, LinkerError> {
         let distance = |k: &usize| (strand.lattice.s_nm(monomers.index(*k)) - place.z).abs();
         let last = monomers.count - 1;
@@ -269,7 +268,9 @@ impl Builder<'_> {
         let state = &self.stock.state;
         let arm = strand.place(place) - state.points.position.get(point);
         let q = state.frames.orientation.get(frame);
-        Site::on_monomer(point, frame, q.inverse_transform_vector(&arm))
+        let normal = (strand.place(place + normal) - strand.place(place)).normalize();
+        let site = Site::on_monomer(point, frame, q.inverse_transform_vector(&arm))?;
+        Ok(site.with_normal(q.inverse_transform_vector(&normal)))
     }
 }
 

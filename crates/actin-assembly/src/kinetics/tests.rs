@@ -5,7 +5,7 @@ use super::LinkerEvent;
 use super::LinkerEventKind::{self, Formed, Left, Stepped};
 use crate::Assembly;
 use crate::scene::Scene;
-use actin_mechanics::State;
+use actin_mechanics::{State, Vector3};
 
 /// Time step (ns), far beyond a stable step of a motion; the bodies are fixed here.
 const STEP_NS: f64 = 1.0;
@@ -227,22 +227,25 @@ fn forming_takes_the_place_of_least_strain() {
     assert!((at_nm - 50.0).abs() > 9.0, "{at_nm}");
 }
 
-/// A crosslinker on two fixed parallel filaments 12 nm apart, with three sites each, binds its second hand in
-/// detailed balance. States have the weights `(k_b/k_u) exp(-U/kT)` of both hands bound, for each ordered pair
-/// of sites, and 1 of one hand bound, for each hand and site.
+/// A crosslinker on two fixed filaments 12 nm apart, with three sites each, binds its second hand in detailed
+/// balance. States have the weights `(k_b/k_u) exp(-U/kT)` of both hands bound, for each ordered pair of sites, and 1 of
+/// one hand bound, for each hand and site.
 #[test]
 fn crosslinkers_bind_in_detailed_balance() {
-    for breaks in [
-        "Breaking(rate_per_ns: 0.02)",
-        "Breaking(rate_per_ns: 0.02, force_pn: 2.0)",
+    let (plain, torsion) = ("", "radius_nm: 3.5, tilt_pn_nm: 6.0, twist_pn_nm: 30.0,");
+    for (breaks, keys) in [
+        ("Breaking(rate_per_ns: 0.02)", plain),
+        ("Breaking(rate_per_ns: 0.02, force_pn: 2.0)", plain),
+        ("Breaking(rate_per_ns: 0.02)", torsion),
     ] {
         let text = format!(
             "Scene(
                 filaments: [
                     Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
-                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)], at_nm: (12.0, 0.0, 4.0)),
+                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)], at_nm: (12.0, 0.0, 4.0),
+                        direction: (0.1, 0.3, 1.0)),
                 ],
-                crosslinkers: [Crosslinkers(count: 1, stiffness_pn_per_nm: 0.2, rest_length_nm: 10.0,
+                crosslinkers: [Crosslinkers(count: 1, stiffness_pn_per_nm: 0.2, rest_length_nm: 10.0, {keys}
                     attach_per_ns: 0.05, bind_per_ns: 0.03, site_spacing_nm: 10.0, averaging_ns: 0.0,
                     unbinds: {breaks}, seed: 8)],
                 task: Brownian(duration_ms: 1e-3, temperature_k: 298.0, seed: 1),
@@ -251,13 +254,9 @@ fn crosslinkers_bind_in_detailed_balance() {
         let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
         let mut state = assembly.rest.clone();
         let kt = assembly.scene.thermal_energy_pn_nm();
-        let energy = |i: i32, j: i32| {
-            let along = 10.0 * f64::from(i - j) + 4.0;
-            0.1 * ((144.0 + along * along).sqrt() - 10.0).powi(2)
-        };
-        let pairs = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
-        let both: f64 = pairs.map(|(i, j)| (-energy(i, j) / kt).exp()).sum();
-        let expected = 2.0 * both * (0.03 / 0.02) / 12.0;
+        let pairs = (0..3).flat_map(|i| (0..3).map(move |j| [i, j]));
+        let weights = pairs.map(|pair| (-energy_of_crosslinker(&assembly, pair) / kt).exp());
+        let expected = 2.0 * weights.sum::<f64>() * (0.03 / 0.02) / 12.0;
         let switching = &assembly.kinetics.as_ref().unwrap().all[0];
         let mut counts = [0.0; 3];
         for step in 1..200_000 {
@@ -269,4 +268,33 @@ fn crosslinkers_bind_in_detailed_balance() {
         // The states decorrelate within about 30 steps, and events are up to half a step late.
         assert!((ratio / expected - 1.0).abs() < 0.1, "{ratio}, {expected}");
     }
+}
+
+/// Energy (pN nm) of the first linker with its first hand at one site of filament 0 and its second hand at one of
+/// filament 1.
+fn energy_of_crosslinker(assembly: &Assembly, sites: [usize; 2]) -> f64 {
+    let linker = assembly.scene.linkers[0];
+    let [one, other] = [0, 1].map(|filament| {
+        let own = assembly.scene.filament_at(filament).unwrap();
+        let at_nm = 5.0 + 10.0 * sites[filament] as f64;
+        let azimuth = own.azimuth_at_radius_deg(at_nm, linker.radius_nm);
+        let (sine, cosine) = azimuth.to_radians().sin_cos();
+        let mut frames = 0..assembly.rest.frames.len();
+        let frame = frames.find(|&frame| assembly.filament_of_frame(frame) == filament);
+        let frame = frame.unwrap();
+        let turn = assembly.rest.frames.orientation.get(frame);
+        let axis = assembly.axis_site(filament, at_nm).unwrap();
+        let axis = axis.position(&assembly.rest);
+        let normal = turn * Vector3::new(cosine, sine, 0.0);
+        (
+            axis + normal * linker.radius_nm,
+            normal,
+            turn * Vector3::z(),
+        )
+    });
+    let reach = other.0 - one.0;
+    let stretch = 0.5 * linker.stiffness_pn_per_nm * (reach.norm() - linker.rest_length_nm).powi(2);
+    let along = reach.normalize();
+    let tilt = 2.0 - along.dot(&one.1) + along.dot(&other.1);
+    stretch + linker.tilt_pn_nm * tilt + linker.twist_pn_nm * (1.0 - one.2.dot(&other.2))
 }

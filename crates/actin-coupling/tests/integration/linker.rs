@@ -159,14 +159,17 @@ fn a_linker_within_a_rigid_body_does_nothing() {
     assert!(stiffness.amax() < 1e-12, "{}", stiffness.amax());
 }
 
-/// Angles of linkers between sites of different frames, at states far from the reference.
-fn angles(scene: &mut Scene, noise: &mut Xorshift) -> Vec<LinkerAngles> {
-    let built = all(scene, 2.5).into_iter().filter_map(|linker| {
-        let angles = LinkerAngles::new(&linker, (60.0, 25.0), &scene.state);
-        angles.ok()
+/// Linkers with stiffness against tilt and twist between sites of different frames, at states far from the reference.
+fn angular(scene: &mut Scene, rest_length: f64, noise: &mut Xorshift) -> Vec<Linker> {
+    let built = all(scene, rest_length).into_iter().flat_map(|linker| {
+        let angles = linker.angles_as_built((60.0, 25.0), &scene.state);
+        let normal = LinkerAngles::normal_to_sites((60.0, 25.0)).unwrap();
+        let both =
+            angles.map(|angles| [angles, normal].map(|one| linker.clone().with_angles(Some(one))));
+        both.into_iter().flatten()
     });
     let built: Vec<_> = built.collect();
-    assert!(built.len() >= 2, "{}", built.len());
+    assert!(built.len() >= 4, "{}", built.len());
     perturb(&mut scene.state, noise, 0.5, 0.4);
     built
 }
@@ -174,15 +177,17 @@ fn angles(scene: &mut Scene, noise: &mut Xorshift) -> Vec<LinkerAngles> {
 #[test]
 fn angles_of_linkers_have_consistent_derivatives() {
     let mut noise = Xorshift::new(16);
-    for _ in 0..4 {
+    for rest_length in [0.0, 2.5, 0.0, 2.5] {
         let mut scene = scene(&mut noise);
-        for angles in angles(&mut scene, &mut noise) {
+        for linker in angular(&mut scene, rest_length, &mut noise) {
             // h = 0.01 nm and rad, torques up to 60 pN nm.
-            assert_is_gradient(&angles, &scene.state, 0.01, 1e-8);
-            assert_is_stiffness(&angles, &scene.state, 0.01, 1e-8);
-            assert_fluctuates(&[&angles], &scene.state, 1e-12);
-            assert_is_balanced(&angles, &scene.state, 1e-12);
-            assert_is_invariant(&angles, &scene.state, 1e-11);
+            assert_is_gradient(&linker, &scene.state, 0.01, 1e-8);
+            assert_is_stiffness(&linker, &scene.state, 0.01, 1e-8);
+            assert_is_balanced(&linker, &scene.state, 1e-12);
+            assert_is_invariant(&linker, &scene.state, 1e-11);
+            if rest_length == 0.0 {
+                assert_fluctuates(&[&linker], &scene.state, 1e-12);
+            }
         }
     }
 }

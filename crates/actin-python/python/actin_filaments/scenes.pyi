@@ -421,6 +421,10 @@ class Crosslinkers(Part):
     - `steps`: Stepping of bound hands to the next site; by default hands do not step. The length of a step sets the
     distance of sites. Default: None.
     - `stiffness_pn_per_nm`: Stiffness; positive.
+    - `tilt_pn_nm`: Stiffness `k` against tilt at both ends: the energy of each end is `k (1 - cos a)` for the angle `a` between the
+    crosslinker and the normal of the filament at the site; at least 0. Requires `radius_nm` and `rest_length_nm`. Default: 0.0.
+    - `twist_pn_nm`: Stiffness `k` against twist: the energy is `k (1 - cos b)` for the angle `b` between the directions of both
+    filaments; at least 0. Antiparallel filaments have the energy `2 k`. Default: 0.0.
     - `unbinds`: Unbinding of each bound hand.
     """
     def __init__(
@@ -438,6 +442,8 @@ class Crosslinkers(Part):
         rest_length_nm: _Number = ...,
         site_spacing_nm: _Number | None = ...,
         steps: Stepping | _Keys | None = ...,
+        tilt_pn_nm: _Number = ...,
+        twist_pn_nm: _Number = ...,
     ) -> None: ...
 
 class Cubic(Part):
@@ -963,7 +969,7 @@ class Linker(Part):
     - `stiffness_pn_per_nm`: Stiffness; positive.
     - `tilt_pn_nm`: Stiffness `k` against tilt at both ends: the energy of each end is `k (1 - cos a)` for the angle `a` between the
     linker and its direction as built, which follows the monomer or segment; at least 0. Requires `to`, no
-    `kinetics`, and two sites apart in different monomers or segments.
+    `steps`, and two sites apart in different monomers or segments. For linkers that roam, see `Crosslinkers`.
     - `to`: Site at the other end; it must differ from this one.
     - `twist_pn_nm`: Stiffness `k` against twist: the energy is `k (1 - cos b)` for the change `b` of the angle between the two
     filaments, seen along the linker as built; at least 0. Requires the same as `tilt_pn_nm`.

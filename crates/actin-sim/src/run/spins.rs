@@ -21,6 +21,10 @@ pub(super) fn longest_step(
     let mut resisted = are_coupled(assembly);
     let linkers = assembly.scene.linkers.iter();
     for linker in linkers.filter(|linker| linker.angular().iter().any(|(_, k)| *k > 0.0)) {
+        if linker.roams() {
+            resisted.fill(true);
+            break;
+        }
         resisted[linker.filament] = true;
         if let Some(other) = &linker.to {
             resisted[other.filament] = true;
