@@ -19,6 +19,14 @@ impl Assembly {
         }
     }
 
+    /// Centres (nm, lab frame) and radii (nm) of beads in `state`.
+    pub fn beads_in(&self, state: &State) -> Vec<(Vector3, f64)> {
+        let beads = self.beads.iter();
+        beads
+            .map(|(site, radius)| (site.position(state), *radius))
+            .collect()
+    }
+
     /// Returns `true` if linkers of the scene break, form or step.
     pub fn has_events(&self) -> bool {
         self.kinetics.is_some()

@@ -1,6 +1,6 @@
 //! Solids of all filaments in a state, for pictures.
 
-use crate::{Palette, bodies};
+use crate::{Palette, bodies, outlines};
 use actin_draw::Colour;
 use actin_draw::scene3d::{Item, Matrix3, Solid, Stroke};
 use actin_sim::mechanics::{State, Vector3};
@@ -138,6 +138,27 @@ impl<'a> Drawing<'a> {
         plates
             .map(|corners| Item::new(plate(corners), colour).with_opacity(0.75))
             .collect()
+    }
+
+    /// Returns the outlines of walls and of the periodic box, with a width in pixels.
+    pub fn outlines(&self, width: f64) -> Vec<Item> {
+        let stroke = Stroke::solid(Colour(self.palette.body_colours().wall), width);
+        let mut lines = outlines::walls(self.assembly);
+        lines.push(outlines::periodic_box(self.assembly, self.state));
+        let ends = lines.iter().flat_map(|line| line.windows(2));
+        ends.map(|ends| Item::line([ends[0], ends[1]], stroke))
+            .collect()
+    }
+
+    /// Returns the spheres of beads.
+    pub fn beads(&self) -> Vec<Item> {
+        let colour = Colour(self.palette.body_colours().bead);
+        let beads = self.assembly.beads_in(self.state).into_iter();
+        let ball = |(centre, radius): (Vector3, f64)| Solid::Ellipsoid {
+            centre,
+            semi_axes: Matrix3::from_diagonal_element(radius.max(self.least_nm)),
+        };
+        beads.map(|bead| Item::new(ball(bead), colour)).collect()
     }
 
     /// Returns arrows from the points of application of forces along `arrow` of each force.

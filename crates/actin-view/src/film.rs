@@ -4,7 +4,7 @@
 //! axis. Each picture shows the time and a scale bar.
 
 use crate::pose::PLATE_NM;
-use crate::{Attitude, Drawing, Palette, Run, bodies};
+use crate::{Attitude, Drawing, Palette, Run, bodies, outlines};
 use actin_draw::png;
 use actin_draw::scene3d::{Camera, Panel, Sheet};
 use actin_sim::mechanics::Vector3;
@@ -97,8 +97,14 @@ impl Film {
 
     fn camera(&self, run: &Run, has_arrows: bool) -> Camera {
         let states = run.states.iter();
-        let places = states.flat_map(|state| state.points.position.iter());
-        let balls = places.map(|place| (place, MARGIN_NM));
+        let balls = states.flat_map(|state| {
+            let places = state.points.position.iter();
+            let corners = outlines::periodic_box(&run.assembly, state);
+            let places = places.chain(corners).map(|place| (place, MARGIN_NM));
+            places.chain(run.assembly.beads_in(state))
+        });
+        let walls = outlines::walls(&run.assembly).into_iter().flatten();
+        let balls = balls.chain(walls.map(|place| (place, MARGIN_NM)));
         let margin = if has_arrows { 0.5 * ARROW } else { 0.0 };
         let margins = [margin, margin, margin, margin.max(AXES)];
         Camera::fitted(self.attitude, balls, Panel::area(self.place(), margins))
@@ -121,10 +127,12 @@ impl Film {
             place: self.place(),
             camera,
             items: [
+                drawing.outlines(1.0),
                 drawing.monomers(1.0),
                 drawing.rods(1.0),
                 drawing.junction_bonds((0.9 * per_nm).max(2.0)),
                 drawing.linkers((0.8 * per_nm).max(2.0), (1.3 * per_nm).max(2.5), false),
+                drawing.beads(),
                 drawing.clamps(PLATE_NM),
                 drawing.forces(3.0, arrow),
             ]

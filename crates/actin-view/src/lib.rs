@@ -12,6 +12,7 @@ struct Readme;
 
 mod drawing;
 mod film;
+mod outlines;
 mod palette;
 mod pose;
 mod run;

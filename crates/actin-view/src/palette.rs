@@ -33,6 +33,10 @@ pub struct BodyColours {
     pub anchor: [u8; 3],
     /// Forces, and prescribed motion of clamps.
     pub force: [u8; 3],
+    /// Walls and the periodic box.
+    pub wall: [u8; 3],
+    /// Beads.
+    pub bead: [u8; 3],
 }
 
 impl BodyColours {
@@ -48,6 +52,8 @@ impl BodyColours {
             linker: shade(self.linker),
             anchor: shade(self.anchor),
             force: shade(self.force),
+            wall: shade(self.wall),
+            bead: shade(self.bead),
         }
     }
 }
@@ -62,6 +68,8 @@ const DISTINCT_FROM_RED_AND_BLUE: BodyColours = BodyColours {
     linker: [40, 40, 40],
     anchor: [0, 140, 70],
     force: [20, 20, 20],
+    wall: [120, 120, 120],
+    bead: [190, 120, 40],
 };
 /// Colours for colour-blind readers.
 ///
@@ -76,6 +84,8 @@ const BODIES_OKABE_ITO: BodyColours = BodyColours {
     linker: [40, 40, 40],
     anchor: [213, 94, 0],
     force: [20, 20, 20],
+    wall: [120, 120, 120],
+    bead: [230, 159, 0],
 };
 
 impl Palette {
@@ -141,7 +151,7 @@ mod tests {
             let [first, second] = things.bonds;
             let [d1, d2, d3] = things.axes;
             let single = [things.junction, things.node, things.clamp, things.linker];
-            let bound = [things.anchor, things.force];
+            let bound = [things.anchor, things.force, things.wall, things.bead];
             let all = [first, second, d1, d2, d3]
                 .into_iter()
                 .chain(single)

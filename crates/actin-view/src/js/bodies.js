@@ -1,9 +1,10 @@
-// Converts a pose to solids: monomers, rods with frames, junctions, linkers, clamps and forces.
+// Converts a pose to solids: monomers, rods with frames, junctions, linkers, clamps, forces, walls and beads.
 //
 // A pose contains flat arrays (nm, lab frame):
 //   strands   { lengths, places 3n, turns 4n, tint n or null, filament, first, per_interface, bonds }
 //   rods      { radius, nodes 3(n + 1), frames 4n, tint n + 1 or null, filament }
-//   junctions [6 numbers], linkers [6, or 7 with the tension in pN], anchors [3], clamps [12], forces [6]
+//   junctions [6 numbers], linkers [6, or 7 with the tension in pN], anchors [3], clamps [12], forces [6],
+//   outlines [corners of a line, each 3], beads [4, the last is the radius]
 // Colours are read from the element #palette and follow the light or dark mode of the page.
 
 const Bodies = (() => {
@@ -50,6 +51,8 @@ const Bodies = (() => {
   // Converts a state of a file to a pose.
   function pose(state) {
     return {
+      outlines: [],
+      beads: [],
       ...state,
       strands: state.strands.map(({ semi_axes: lengths, monomers, ...strand }) => (
         { ...strand, lengths, places: flat(monomers, 0, 3), turns: flat(monomers, 3, 7) })),
@@ -75,6 +78,8 @@ const Bodies = (() => {
         const corners = [0, 3, 6, 9, 0].map((i) => [c[i], c[i + 1], c[i + 2]]);
         batch.line(corners, 0.5, palette.clamp);
       }
+      for (const line of from.outlines) batch.line(line, 0.2, palette.wall, 0, 1.6);
+      for (const bead of from.beads) batch.ball(bead.slice(0, 3), bead[3], palette.bead);
     });
     const size = (f) => Math.hypot(f[3], f[4], f[5]), most = strongest || Math.max(...from.forces.map(size));
     space.ink = () => colours().ink;
@@ -170,7 +175,8 @@ const Bodies = (() => {
     const ends = [...from.linkers, ...from.junctions].flatMap((l) => [l.slice(0, 3), l.slice(3, 6)]);
     const clamps = from.clamps.flatMap((c) => [0, 3, 6, 9].map((i) => [...c.slice(i, i + 3)]));
     const bodies = [...from.strands.map((s) => s.places), ...from.rods.map((r) => r.nodes)];
-    const loose = [...ends, ...clamps, ...from.anchors].flatMap((p) => [...p]);
+    const beads = from.beads.flatMap(([x, y, z, r]) => [[x - r, y - r, z - r], [x + r, y + r, z + r]]);
+    const loose = [...ends, ...clamps, ...from.anchors, ...from.outlines.flat(), ...beads].flatMap((p) => [...p]);
     const all = new Float32Array(bodies.reduce((sum, b) => sum + b.length, loose.length));
     let to = 0;
     for (const part of [...bodies, loose]) {
@@ -201,6 +207,8 @@ const Bodies = (() => {
         ? `linkers, the ${LABELLED} largest tensions labelled` : 'linkers', palette.linker],
       [from.anchors.length, 'anchors', palette.anchor],
       [from.clamps.length, 'held ends', palette.clamp],
+      [from.outlines.flat().length, 'walls, periodic box', palette.wall],
+      [from.beads.length, 'beads', palette.bead],
       [from.forces.length, 'forces, in proportion down to a third', palette.ink],
       [(1 - near) * Number(from.rods.length > 0 || sample !== ''),
         'Bonds between monomers and axes of segments show from nearer.', null],

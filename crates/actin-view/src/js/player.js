@@ -44,6 +44,8 @@
       anchors: held.filter((l, i) => run.anchored[i]).map((l) => l.slice(3, 6)),
       clamps: many(clamps, run.held, 12),
       forces: run.forces[t],
+      outlines: [...run.walls, run.box[t]],
+      beads: run.beads[t],
     };
   }
 

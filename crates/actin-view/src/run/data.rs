@@ -10,6 +10,7 @@
 //! | fields at all points, scaled to their range over all records | u16 |
 
 use super::{Curve, Run};
+use crate::outlines;
 use crate::pose::{Bonds, PLATE_NM, bodies, share};
 use actin_sim::mechanics::{Loads, State, Vector3};
 use actin_sim::shape::ProfilePoint;
@@ -61,6 +62,9 @@ impl Run {
             })),
             "held": assembly.clamps.len(),
             "forces": states.iter().map(|s| forces(assembly, s)).collect::<Vec<_>>(),
+            "walls": outlines::walls(assembly).into_iter().map(rounded).collect::<Vec<_>>(),
+            "box": states.iter().map(|s| rounded(outlines::periodic_box(assembly, s))).collect::<Vec<_>>(),
+            "beads": states.iter().map(|s| beads(assembly, s)).collect::<Vec<_>>(),
             "fields": fields(self),
             "curves": self.curves.iter().map(curve).collect::<Vec<_>>(),
         })
@@ -127,6 +131,20 @@ fn linkers(assembly: &Assembly, state: &State) -> Vec<f64> {
 fn forces(assembly: &Assembly, state: &State) -> Vec<[f64; 6]> {
     let all = bodies::forces(assembly, state).into_iter();
     all.map(|(p, f)| [p.x, p.y, p.z, f.x, f.y, f.z].map(|x| (x * 1e4).round() / 1e4))
+        .collect()
+}
+
+/// Returns the corners of a line (nm).
+fn rounded(line: Vec<Vector3>) -> Vec<[f64; 3]> {
+    line.into_iter()
+        .map(|p| [p.x, p.y, p.z].map(|x| (x * 1e2).round() / 1e2))
+        .collect()
+}
+
+/// Returns the centre and the radius of each bead (nm).
+fn beads(assembly: &Assembly, state: &State) -> Vec<[f64; 4]> {
+    let all = assembly.beads_in(state).into_iter();
+    all.map(|(p, radius)| [p.x, p.y, p.z, radius].map(|x| (x * 1e2).round() / 1e2))
         .collect()
 }
 
