@@ -126,7 +126,8 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     let contact = repulsion.map_or(0.0, Repulsion::contact_nm);
     problems.check("periodic.size_nm", || periodic.check_size(contact));
     problems.check("periodic", || check_strain(scene, periodic));
-    problems.note(check_excluded(scene));
+    problems.note(check_flow(scene));
+    problems.check("repulsion", || check_walls(scene, periodic));
     problems.check("periodic.size_nm", || check_reach(scene, periodic));
 }
 
@@ -159,11 +160,7 @@ fn check_strain(scene: &Scene, periodic: &PeriodicBox) -> Result<(), SceneProble
     }
 }
 
-fn check_excluded(scene: &Scene) -> Result<(), SceneProblem> {
-    if scene.has_walls() {
-        let rule = "has walls, which are not repeated: omit them, or omit periodic";
-        return Err(SceneProblem::new("repulsion", "", rule));
-    }
+fn check_flow(scene: &Scene) -> Result<(), SceneProblem> {
     if let Task::Brownian(task) = &scene.task
         && matches!(task.flow, Flow::Shear { .. })
     {
@@ -173,13 +170,74 @@ fn check_excluded(scene: &Scene) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// Requires that the nearest image of a site is the only one within reach of a crosslinker.
-fn check_reach(scene: &Scene, periodic: &PeriodicBox) -> Result<(), SceneProblem> {
+/// Allows the walls of a layer: pairs of planes that face each other, normal to an edge of the box that no linker
+/// passes.
+fn check_walls(scene: &Scene, periodic: &PeriodicBox) -> Result<(), SceneProblem> {
+    let Some(repulsion) = &scene.repulsion else {
+        return Ok(());
+    };
+    let refused = || {
+        let rule = "has walls that are not repeated: in a periodic box, only pairs of planes that face each other are \
+                    allowed, normal to y or z, or to x without strain";
+        SceneProblem::new("repulsion", "", rule)
+    };
+    let normals: Vec<Vector3> = (repulsion.planes.iter())
+        .map(|plane| Vector3::from(plane.normal).normalize())
+        .collect();
+    let axes = if periodic.strain == 0.0 { 0..3 } else { 1..3 };
+    let is_along = |normal: &Vector3| axes.clone().any(|axis| normal[axis].abs() >= 1.0);
+    if repulsion.has_closed_walls() || !normals.iter().all(is_along) {
+        return Err(refused());
+    }
+    for axis in axes {
+        let facing = |sign: f64| {
+            let planes = normals.iter().zip(&repulsion.planes);
+            planes.filter_map(move |(normal, plane)| {
+                (sign * normal[axis] > 0.5).then_some(plane.at_nm[axis])
+            })
+        };
+        let low = facing(1.0).fold(f64::NEG_INFINITY, f64::max);
+        let high = facing(-1.0).fold(f64::INFINITY, f64::min);
+        match (low.is_finite(), high.is_finite()) {
+            (true, true) => check_layer(scene, axis, (high - low, periodic.size_nm[axis]))?,
+            (false, false) => {}
+            _ => return Err(refused()),
+        }
+    }
+    Ok(())
+}
+
+/// Requires that no linker passes through the walls normal to an edge (nm) of the box.
+fn check_layer(
+    scene: &Scene,
+    axis: usize,
+    (distance, edge): (f64, f64),
+) -> Result<(), SceneProblem> {
+    let refused = |rule: &str| SceneProblem::new("periodic.size_nm", edge, rule);
+    let least = distance + longest_reach(scene);
+    if edge < least {
+        let rule = "the distance of the walls normal to this edge and the reach of crosslinkers";
+        return Err(refused(&format!("must be at least {least:?}, {rule}")));
+    }
+    if scene.linkers.iter().any(|one| one.image[axis] != 0) {
+        let rule = "is too short: linkers to images pass through the walls normal to this edge";
+        return Err(refused(rule));
+    }
+    Ok(())
+}
+
+/// Largest distance (nm) of two sites that a crosslinker of a pool joins.
+fn longest_reach(scene: &Scene) -> f64 {
     let reach = |linker: &Linker| {
         let forms = linker.kinetics.filter(|k| k.roams.is_some())?.forms?;
         Some(linker.rest_length_nm + forms.reach_nm)
     };
-    let longest = scene.linkers.iter().filter_map(reach).fold(0.0, f64::max);
+    scene.linkers.iter().filter_map(reach).fold(0.0, f64::max)
+}
+
+/// Requires that the nearest image of a site is the only one within reach of a crosslinker.
+fn check_reach(scene: &Scene, periodic: &PeriodicBox) -> Result<(), SceneProblem> {
+    let longest = longest_reach(scene);
     let shortest = periodic
         .size_nm
         .iter()
@@ -212,6 +270,60 @@ fn check_image(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProb
 #[cfg(test)]
 mod tests {
     use crate::Scene;
+
+    fn refused(planes: &str, strain: f64, height: f64) -> Option<String> {
+        let text = format!(
+            "Scene(
+                arrangements: [Random(
+                    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 200.0)]), count: 4,
+                    box_nm: (300.0, 300.0, 50.0), centre_nm: (150.0, 150.0, 100.0), orientation: Planar, seed: 1,
+                )],
+                crosslinkers: [Crosslinkers(count: 5, stiffness_pn_per_nm: 1.0, reach_nm: 20.0, attach_per_ns: 1e-5,
+                    bind_per_ns: 1e-5, unbinds: Breaking(rate_per_ns: 1e-6), seed: 2)],
+                repulsion: Repulsion(planes: [{planes}]),
+                periodic: PeriodicBox(size_nm: (300.0, 300.0, {height:?}), strain: {strain:?}),
+                task: Brownian(duration_ms: 0.01, temperature_k: 298.0, seed: 3),
+            )"
+        );
+        Scene::from_ron(&text).err().map(|error| error.to_string())
+    }
+
+    #[test]
+    fn layers_of_periodic_boxes_have_two_walls() {
+        let plane = |[x, y, z]: [f64; 3], axis: usize, sign: f64| {
+            let mut normal = [0.0; 3];
+            normal[axis] = 2.0 * sign;
+            let [a, b, c] = normal;
+            format!("Plane(at_nm: ({x:?}, {y:?}, {z:?}), normal: ({a:?}, {b:?}, {c:?})),")
+        };
+        let z = |at, sign| plane([7.0, 8.0, at], 2, sign);
+        let layer = z(50.0, 1.0) + &z(150.0, -1.0);
+        assert_eq!(refused(&layer, 0.2, 120.0), None);
+        for (planes, strain, height, what) in [
+            (
+                layer.clone(),
+                0.2,
+                119.0,
+                "must be at least 120.0, the distance",
+            ),
+            (z(50.0, 1.0), 0.0, 300.0, "only pairs of planes"),
+            (
+                plane([-200.0; 3], 0, 1.0) + &plane([500.0; 3], 0, -1.0),
+                0.2,
+                300.0,
+                "normal to y or z",
+            ),
+            (
+                layer + "Plane(at_nm: (0.0, 0.0, 0.0), normal: (0.0, 0.1, 1.0))",
+                0.0,
+                300.0,
+                "only pairs",
+            ),
+        ] {
+            let message = refused(&planes, strain, height);
+            assert!(message.is_some_and(|text| text.contains(what)), "{planes}");
+        }
+    }
 
     const SHEARED: &str = "Scene(
         filaments: [

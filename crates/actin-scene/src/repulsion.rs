@@ -117,10 +117,12 @@ impl Default for Repulsion {
 
 impl Repulsion {
     pub(super) fn has_walls(&self) -> bool {
-        !(self.planes.is_empty()
-            && self.spheres.is_empty()
-            && self.cylinders.is_empty()
-            && self.cuboids.is_empty())
+        !self.planes.is_empty() || self.has_closed_walls()
+    }
+
+    /// Returns whether there are walls other than planes.
+    pub(super) fn has_closed_walls(&self) -> bool {
+        !(self.spheres.is_empty() && self.cylinders.is_empty() && self.cuboids.is_empty())
     }
 
     /// Returns all walls in the order of shapes and indices. A cuboid has six.
