@@ -3,31 +3,14 @@
 use actin_paper::committed;
 use actin_paper::figures;
 use anyhow::{Error, Result};
-use std::path::PathBuf;
 
-#[expect(clippy::struct_excessive_bools, reason = "flags of a command line")]
 #[derive(clap::Args, Clone, Debug)]
 pub(crate) struct Options {
-    /// Artefacts: fig1 to fig10, table1 to table5, law. All by default.
-    ids: Vec<String>,
-    /// Output folder of figures, tables and reports.
-    #[arg(long, default_value = "target/figures")]
-    out: PathBuf,
-    /// Uses fewer resolutions and samples, and equilibria only.
-    #[arg(long)]
-    quick: bool,
+    #[command(flatten)]
+    all: figures::Options,
     /// Writes the numbers of a quick run to docs/report-quick.json.
     #[arg(long, requires = "quick")]
     write: bool,
-    /// Number of threads; by default the number of cores. Results are independent of it.
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
-    /// Recomputes artefacts that an earlier run has finished.
-    #[arg(long)]
-    fresh: bool,
-    /// Also writes every figure as PDF and PNG; requires Chromium, in CHROME or on the path.
-    #[arg(long)]
-    print: bool,
     /// Colours of figures and of the viewer.
     #[arg(long, value_enum, default_value_t)]
     palette: Palette,
@@ -43,22 +26,17 @@ enum Palette {
 }
 
 pub(crate) fn run(options: Options) -> Result<()> {
-    let (quick, write) = (options.quick, options.write);
-    let options = figures::Options {
-        ids: options.ids,
-        out: options.out,
-        quick,
-        threads: options.threads,
-        fresh: options.fresh,
-        print: options.print,
+    let quick = options.all.quick;
+    let chosen = figures::Options {
         palette: match options.palette {
             Palette::Paper => figures::Palette::Paper,
             Palette::ColourBlind => figures::Palette::ColourBlind,
         },
+        ..options.all
     };
     let tell = &|line: std::fmt::Arguments<'_>| println!("{line}");
-    let rows = figures::reproduce(&options, tell).map_err(Error::msg)?;
-    let compared = if write {
+    let rows = figures::reproduce(&chosen, tell).map_err(Error::msg)?;
+    let compared = if options.write {
         committed::write_quick(&rows, tell)
     } else {
         committed::compare(&rows, quick, tell)

@@ -9,12 +9,12 @@ mod bench;
 mod docs;
 mod extremes;
 mod figures;
-mod fit;
 mod homogenise;
-mod load_cases;
 mod tidy;
 mod tradeoff;
 
+use actin_paper::{fit, load_cases};
+use anyhow::{Error, Result};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -56,17 +56,18 @@ fn main() -> ExitCode {
     }
 }
 
-fn carry_out(task: Task) -> anyhow::Result<()> {
-    actin_sim::mechanics::wide::chosen_arch().map_err(anyhow::Error::msg)?;
+fn carry_out(task: Task) -> Result<()> {
+    actin_sim::mechanics::wide::chosen_arch().map_err(Error::msg)?;
+    let tell = &|line: std::fmt::Arguments<'_>| println!("{line}");
     match task {
         Task::Bench(options) => bench::run(&options),
         Task::Extremes(options) => extremes::run(&options),
-        Task::FitParameters(options) => fit::run(options),
+        Task::FitParameters(options) => fit::run(&options, tell).map_err(Error::msg),
         Task::Homogenise(options) => homogenise::run(&options),
-        Task::LoadCases(options) => load_cases::run(options),
+        Task::LoadCases(options) => load_cases::run(&options, tell).map_err(Error::msg),
         Task::ReproduceFigures(options) => figures::run(options),
         Task::Tradeoff(options) => tradeoff::run(&options),
-        Task::Docs(options) => docs::run(&options).map_err(anyhow::Error::msg),
+        Task::Docs(options) => docs::run(&options).map_err(Error::msg),
     }?;
-    streams::ending().map_err(anyhow::Error::msg)
+    streams::ending().map_err(Error::msg)
 }

@@ -35,22 +35,28 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Options of [`reproduce`].
-#[derive(Clone, Debug)]
+/// Options of [`reproduce`], as on the command line of `cargo xtask reproduce-figures`.
+#[derive(clap::Args, Clone, Debug)]
 pub struct Options {
-    /// Artefacts: fig1 to fig10, table1 to table5, law; all if the list is empty.
+    /// Artefacts: fig1 to fig10, table1 to table5, law. All by default.
     pub ids: Vec<String>,
-    /// Output folder of pictures, tables and reports.
+    /// Output folder of figures, tables and reports.
+    #[arg(long, default_value = "target/figures")]
     pub out: PathBuf,
-    /// Computes fewer resolutions and samplings, and equilibria only.
+    /// Uses fewer resolutions and samples, and equilibria only.
+    #[arg(long)]
     pub quick: bool,
-    /// Number of threads, by default one per core. Results do not depend on it.
+    /// Number of threads; by default the number of cores. Results are independent of it.
+    #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
-    /// Ignores results of earlier runs.
+    /// Recomputes artefacts that an earlier run has finished.
+    #[arg(long)]
     pub fresh: bool,
-    /// Also writes every picture as PDF and PNG.
+    /// Also writes every figure as PDF and PNG; requires Chromium, in CHROME or on the path.
+    #[arg(long)]
     pub print: bool,
-    /// Colours of pictures and viewer.
+    /// Colours of figures and of the viewer.
+    #[arg(skip)]
     pub palette: Palette,
 }
 

@@ -27,19 +27,24 @@ use measured::BendData;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Data and output of a fit.
-#[derive(Clone, Debug)]
+/// Data and output of a fit: the command line of `cargo xtask fit-parameters`.
+#[derive(clap::Args, Clone, Debug)]
 pub struct Options {
-    /// Fits a user's table with columns of twist, length, bending or stretch
-    /// (`docs/how-to/rod-laws.md`).
+    /// Fits a table with columns of twist, length, bending or stretch (docs/how-to/rod-laws.md).
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["measure", "all_rows"])]
     pub data: Option<PathBuf>,
-    /// Measures filaments of monomers and fits the results, including bending and shear.
+    /// Measures monomer filaments and fits all rigidities, including bending and shear.
+    #[arg(long, conflicts_with = "all_rows")]
     pub measure: bool,
-    /// Includes the rows of the paper's tables above 200 degrees, which it calls unreliable.
+    /// Includes rows above 200 degrees, which the paper calls unreliable.
+    #[arg(long)]
     pub all_rows: bool,
-    /// Parameters, such as `b3.rest,bend.rise`, that are accepted at a bound of their search.
+    /// Accepts these parameters, such as `b3.rest,bend.rise`, at a bound of the search. Other parameters at a bound
+    /// are an error, and nothing is written.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub allow_bounds: Vec<String>,
-    /// Output folder.
+    /// Output folder of laws, curves and figures.
+    #[arg(long, default_value = "target/fit")]
     pub out: PathBuf,
 }
 

@@ -28,30 +28,32 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Subject and output of the study.
-#[derive(Clone, Debug)]
+/// Subject and output of the study: the command line of `cargo xtask load-cases`.
+#[expect(clippy::struct_excessive_bools, reason = "flags of a command line")]
+#[derive(clap::Args, Clone, Debug)]
 pub struct Options {
-    /// Folder of tables, pictures and cached equilibria of monomers.
-    pub out: PathBuf,
-    /// Uses fewer cases, azimuths and samplings.
-    pub quick: bool,
-    /// Names of laws in scenes.
+    /// Names of laws, as in scenes.
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "Constant,Fitted,Homogenised"
+    )]
     pub laws: Vec<String>,
-    /// Also writes `docs/tables/load-cases.md`.
+    /// Output folder of tables and figures; existing equilibria of monomers are reused.
+    #[arg(long, default_value = "target/load-cases")]
+    pub out: PathBuf,
+    /// Uses fewer cases, azimuths and samples.
+    #[arg(long)]
+    pub quick: bool,
+    /// Also writes the committed file: `docs/tables/load-cases.md` or, with `--beyond`, the table of the program.
+    #[arg(long, conflicts_with = "quick")]
     pub write: bool,
-    /// Subject of the comparison.
-    pub subject: Subject,
-}
-
-/// Subject of the comparison.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Subject {
-    /// All load cases.
-    Cases,
-    /// Errors at short spans, and of beams that are half rod.
-    Ends,
-    /// Errors of cantilevers beyond the data of `Homogenised`.
-    BeyondData,
+    /// Measures the length correction at the ends of short spans instead.
+    #[arg(long, conflicts_with = "write")]
+    pub ends: bool,
+    /// Measures errors of cantilevers beyond the range of the law `Homogenised` instead, for its warning.
+    #[arg(long, conflicts_with = "ends")]
+    pub beyond: bool,
 }
 
 const PAGE: &str = "load-cases.md";
@@ -68,10 +70,11 @@ pub fn run(options: &Options, tell: ProgressSink<'_>) -> Result<(), String> {
     let named = |name: &String| Ok((name.clone(), filament::law(name)?));
     let laws: Result<Vec<Law>, String> = options.laws.iter().map(named).collect();
     let laws = laws?;
-    match options.subject {
-        Subject::Cases => {}
-        Subject::Ends => return ends::run(&options.out, &laws, tell),
-        Subject::BeyondData => return beyond::run(&options.out, options.write, tell),
+    if options.ends {
+        return ends::run(&options.out, &laws, tell);
+    }
+    if options.beyond {
+        return beyond::run(&options.out, options.write, tell);
     }
     let clock = Instant::now();
     let rows = measured(&options.out, &laws, options.quick, tell)?;
