@@ -15,9 +15,7 @@
 
 use super::common::to;
 use crate::theory::second_order_limit;
-use actin_cosserat::{
-    EnergyGradient, Rigidities, RodEnd, RodLayout, RodMaterial, StraightRod, Walls,
-};
+use actin_cosserat::{End, EnergyGradient, Rigidities, RodLayout, RodMaterial, StraightRod, Walls};
 use actin_equilibrium::{Layout, Newton};
 use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3, rotation};
 
@@ -122,7 +120,7 @@ fn coiled(n: usize) -> (State, RodLayout, Vec<Box<dyn Interaction>>) {
         let i = layout.frames().start + k;
         state.frames.orientation.set(i, wall(-TURNS) * *frame);
     }
-    for (end, turns) in [(RodEnd::Start, -TURNS), (RodEnd::End, TURNS)] {
+    for (end, turns) in [(End::Start, -TURNS), (End::End, TURNS)] {
         state.points.hold(layout.end_point(end));
         let frame = layout.wall(end).unwrap();
         state.frames.orientation.set(frame, wall(turns));
@@ -163,8 +161,8 @@ fn solved(n: usize) -> Coiled {
     let off = |(k, cosine): (usize, &f64)| (cosine - exact.cosine((k as f64 - middle) * h)).abs();
     let mut loads = Loads::zeros(&state);
     terms[0].add_loads(&state, &mut loads);
-    let force = loads.force.get(layout.end_point(RodEnd::End));
-    let wall = layout.wall(RodEnd::End).unwrap();
+    let force = loads.force.get(layout.end_point(End::End));
+    let wall = layout.wall(End::End).unwrap();
     let couple = state.frames.orientation.get(wall) * loads.torque.get(wall);
     Coiled {
         tilt: least.acos().to_degrees(),

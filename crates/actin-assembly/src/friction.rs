@@ -3,7 +3,7 @@
 use super::{Assembly, BodyKind, SectionSpan};
 use crate::scene::{End, Fluid, SceneProblem, Water};
 use actin_brownian::{Cylinder, Dashpot, Friction, TurnDashpot};
-use actin_cosserat::{RodEnd, RodLayout};
+use actin_cosserat::RodLayout;
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
@@ -197,14 +197,14 @@ impl FilamentDrag<'_> {
 
     fn of_end(&self, end: End) -> Dashpot {
         let sections = self.assembly.filaments[self.filament].sections.clone();
-        let (section, rod_end) = match end {
-            End::Start => (sections.start, RodEnd::Start),
-            End::End => (sections.end - 1, RodEnd::End),
+        let section = match end {
+            End::Start => sections.start,
+            End::End => sections.end - 1,
         };
         let across = self.cylinder.at_ends();
         let friction = Vector3::new(across, across, 0.0);
         if let Some(rod) = self.rod(section) {
-            let (point, frame) = (rod.end_point(rod_end), rod.end_frame(rod_end));
+            let (point, frame) = (rod.end_point(end), rod.end_frame(end));
             return Dashpot::of_body(point, frame, Vector3::zeros(), friction);
         }
         let SectionSpan { points, frames, .. } = &self.assembly.sections[section];

@@ -2,7 +2,7 @@
 
 use super::Assembly;
 use crate::scene::{Clamp, End};
-use actin_cosserat::{Rigidities, RodElements, RodEnd, RodError, RodJoint, RodMaterial};
+use actin_cosserat::{Rigidities, RodElements, RodError, RodJoint, RodMaterial};
 use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
 
 /// Rotational spring between two frames, reported as `hinge`. A rod joint of unit length models it,
@@ -63,12 +63,12 @@ impl Assembly {
             return None;
         }
         let sections = &self.filaments[filament].sections;
-        let (section, rod_end) = match end {
-            End::Start => (sections.start, RodEnd::Start),
-            End::End => (sections.end - 1, RodEnd::End),
+        let section = match end {
+            End::Start => sections.start,
+            End::End => sections.end - 1,
         };
         let rod = self.rod_of(section)?;
-        let wall = rod.layout.wall(rod_end)?;
+        let wall = rod.layout.wall(end)?;
         let behind = *self.clamps[clamp].frames.first()?;
         Some([behind, wall])
     }

@@ -1,7 +1,7 @@
 //! Conversion of scene parameters to the models of the lower crates.
 
-use crate::scene::{End, Hold, Monomers, SceneProblem};
-use actin_cosserat::{RodClamp, RodEnd};
+use crate::scene::{Hold, Monomers, SceneProblem};
+use actin_cosserat::RodClamp;
 use actin_ellipsoid::{
     EllipsoidModel, EllipsoidParameterError, EllipsoidParameters, InterfaceError, InterfaceKind,
 };
@@ -56,12 +56,5 @@ pub(super) fn rod_clamp(hold: Hold) -> RodClamp {
         Hold::NodeAndFrame => RodClamp::NodeAndFrame,
         Hold::TwoNodesAndFrame => RodClamp::TwoNodesAndFrame,
         Hold::Pin => RodClamp::Pin,
-    }
-}
-
-pub(super) fn rod_end(end: End) -> RodEnd {
-    match end {
-        End::Start => RodEnd::Start,
-        End::End => RodEnd::End,
     }
 }

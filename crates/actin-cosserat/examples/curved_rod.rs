@@ -1,15 +1,14 @@
 //! A rod with a circular rest shape is straightened, then relaxes to its rest shape.
 
 use actin_cosserat::{
-    Interaction, Rigidities, RodClamp, RodElements, RodEnd, RodMaterial, State, StraightRod,
-    Vector3,
+    End, Interaction, Rigidities, RodClamp, RodElements, RodMaterial, State, StraightRod, Vector3,
 };
 use actin_equilibrium::relax;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut state = State::default();
     let straight = StraightRod::uniform(160, 1.0);
-    let rod = straight.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state)?;
+    let rod = straight.push_clamped(RodClamp::Wall, End::Start, &mut state)?;
     let rigidities = Rigidities::table4();
 
     // Rest shape: curved about body axis d2 with a radius of 100 nm. A third component would be a
@@ -25,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("energy: {energy:.1} pN nm; B L / 2 R^2 = {theory:.1} pN nm");
 
     relax(&mut state, &[Box::new(law)])?;
-    let tip = state.points.position.get(rod.end_point(RodEnd::End));
+    let tip = state.points.position.get(rod.end_point(End::End));
     let (sin, cos) = (rod.length() / radius).sin_cos();
     let circle = Vector3::new(1.0 - cos, 0.0, sin) * radius;
     println!("tip: ({:.3}, {:.3}) nm", tip.x, tip.z);

@@ -2,7 +2,7 @@
 
 use crate::layout::check_lengths;
 use crate::shape::from_z;
-use crate::{CrossSection, RodClamp, RodEnd, RodError, RodLayout, Walls};
+use crate::{CrossSection, End, RodClamp, RodError, RodLayout, Walls};
 use actin_mechanics::{Frame, Inertia, Point, State, UnitQuaternion, Vector3};
 
 /// A straight, unstrained rod.
@@ -75,13 +75,13 @@ impl StraightRod {
     pub fn push_clamped(
         &self,
         clamp: RodClamp,
-        end: RodEnd,
+        end: End,
         state: &mut State,
     ) -> Result<RodLayout, RodError> {
         let mut rod = self.clone();
         match end {
-            RodEnd::Start => rod.walls.start |= clamp.needs_wall(),
-            RodEnd::End => rod.walls.end |= clamp.needs_wall(),
+            End::Start => rod.walls.start |= clamp.needs_wall(),
+            End::End => rod.walls.end |= clamp.needs_wall(),
         }
         let layout = rod.push(state)?;
         clamp.hold(&layout, end, state)?;
@@ -127,7 +127,7 @@ impl StraightRod {
         for node in nodes {
             state.points.push(node);
         }
-        self.push_wall((RodEnd::Start, lengths[0]), state);
+        self.push_wall((End::Start, lengths[0]), state);
         let mut layouts = Vec::with_capacity(parts.len());
         let mut done = 0;
         for (i, &count) in parts.iter().enumerate() {
@@ -140,11 +140,11 @@ impl StraightRod {
                 let mean = 0.5 * (lengths[done - 1] + lengths[done]);
                 state.frames.push(self.frame(0.5 * mean, mean));
             } else {
-                self.push_wall((RodEnd::End, own[count - 1]), state);
+                self.push_wall((End::End, own[count - 1]), state);
             }
             let walls = Walls {
-                start: is_joined[0] || self.wall(RodEnd::Start).is_some(),
-                end: is_joined[1] || self.wall(RodEnd::End).is_some(),
+                start: is_joined[0] || self.wall(End::Start).is_some(),
+                end: is_joined[1] || self.wall(End::End).is_some(),
             };
             let first_point = first_point + done - count;
             layouts.push(RodLayout::new(
@@ -162,8 +162,8 @@ impl StraightRod {
     fn push_segments(&self, lengths: &[f64], is_joined: [bool; 2], state: &mut State) {
         let is_free = |end| self.wall(end) == Some(false);
         let shares_inertia = [
-            is_joined[0] || is_free(RodEnd::Start),
-            is_joined[1] || is_free(RodEnd::End),
+            is_joined[0] || is_free(End::Start),
+            is_joined[1] || is_free(End::End),
         ];
         for (k, &length) in lengths.iter().enumerate() {
             let is_beside = [k == 0, k + 1 == lengths.len()];
@@ -219,15 +219,15 @@ impl StraightRod {
     }
 
     /// Returns whether the wall frame at an end is held, or `None` without a wall frame.
-    fn wall(&self, end: RodEnd) -> Option<bool> {
+    fn wall(&self, end: End) -> Option<bool> {
         let (is_held, is_free) = match end {
-            RodEnd::Start => (self.walls.start, self.free_walls.start),
-            RodEnd::End => (self.walls.end, self.free_walls.end),
+            End::Start => (self.walls.start, self.free_walls.start),
+            End::End => (self.walls.end, self.free_walls.end),
         };
         (is_held || is_free).then_some(is_held)
     }
 
-    fn push_wall(&self, (end, length): (RodEnd, f64), state: &mut State) {
+    fn push_wall(&self, (end, length): (End, f64), state: &mut State) {
         let Some(is_held) = self.wall(end) else {
             return;
         };
@@ -257,7 +257,7 @@ impl StraightRod {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::RodEnd;
+    use crate::End;
 
     #[test]
     fn rods_are_appended_to_existing_bodies() {
@@ -276,11 +276,11 @@ mod tests {
         StraightRod::uniform(1, 1.0).push(&mut state).unwrap();
         assert_eq!(layout.points(), 3..6);
         assert_eq!(layout.bending_chain(), 2..6);
-        assert_eq!(layout.wall(RodEnd::Start), Some(2));
-        assert_eq!(layout.wall(RodEnd::End), Some(5));
+        assert_eq!(layout.wall(End::Start), Some(2));
+        assert_eq!(layout.wall(End::End), Some(5));
         let held = (0..state.frames.len()).filter(|&i| !state.frames.is_free(i));
         assert!(held.eq([2, 5]));
-        let tip = state.points.position.get(layout.end_point(RodEnd::End));
+        let tip = state.points.position.get(layout.end_point(End::End));
         assert_eq!(tip, Vector3::new(1.0, 2.0, 7.0));
     }
 
@@ -300,8 +300,8 @@ mod tests {
         assert_eq!(divided.points, whole.points);
         assert_eq!((parts[0].points(), parts[1].points()), (0..2, 1..5));
         assert_eq!((parts[0].frames(), parts[1].frames()), (1..2, 3..6));
-        let shared = parts[0].wall(RodEnd::End);
-        assert_eq!((shared, parts[1].wall(RodEnd::Start)), (Some(2), Some(2)));
+        let shared = parts[0].wall(End::End);
+        assert_eq!((shared, parts[1].wall(End::Start)), (Some(2), Some(2)));
         assert!(divided.frames.is_free(2));
         let inertia = |state: &State| -> f64 {
             let free = (0..state.frames.len()).filter(|&i| state.frames.is_free(i));

@@ -1,6 +1,6 @@
 //! Clamps of rod ends.
 
-use crate::{RodEnd, RodError, RodLayout};
+use crate::{End, RodError, RodLayout};
 use actin_mechanics::State;
 use std::ops::Range;
 
@@ -43,7 +43,7 @@ impl RodClamp {
     ///
     /// # Errors
     /// If the clamp is [`Wall`](Self::Wall) and the end has no wall frame.
-    pub fn held_bodies(self, layout: &RodLayout, end: RodEnd) -> Result<HeldBodies, RodError> {
+    pub fn held_bodies(self, layout: &RodLayout, end: End) -> Result<HeldBodies, RodError> {
         let frame = match self {
             Self::Wall => layout.wall(end).ok_or(RodError::NoWall(end))?,
             Self::NodeAndFrame | Self::TwoNodesAndFrame | Self::Pin => layout.end_frame(end),
@@ -54,8 +54,8 @@ impl RodClamp {
         };
         let Range { start, end: past } = layout.points();
         let points = match end {
-            RodEnd::Start => start..start + nodes,
-            RodEnd::End => past - nodes..past,
+            End::Start => start..start + nodes,
+            End::End => past - nodes..past,
         };
         Ok(HeldBodies {
             points,
@@ -70,7 +70,7 @@ impl RodClamp {
     pub fn hold(
         self,
         layout: &RodLayout,
-        end: RodEnd,
+        end: End,
         state: &mut State,
     ) -> Result<HeldBodies, RodError> {
         let held = self.held_bodies(layout, end)?;
@@ -85,11 +85,11 @@ mod tests {
     use super::*;
     use crate::{StraightRod, Walls};
 
-    fn held(clamp: RodClamp, end: RodEnd) -> (Vec<usize>, Vec<usize>) {
+    fn held(clamp: RodClamp, end: End) -> (Vec<usize>, Vec<usize>) {
         let rod = StraightRod {
             walls: Walls {
-                start: end == RodEnd::Start && clamp.needs_wall(),
-                end: end == RodEnd::End && clamp.needs_wall(),
+                start: end == End::Start && clamp.needs_wall(),
+                end: end == End::End && clamp.needs_wall(),
             },
             ..StraightRod::uniform(3, 10.0)
         };
@@ -110,21 +110,21 @@ mod tests {
     #[test]
     fn each_clamp_holds_its_bodies() {
         use RodClamp::{NodeAndFrame, Pin, TwoNodesAndFrame, Wall};
-        assert_eq!(held(Pin, RodEnd::Start), (vec![0], vec![]));
-        assert_eq!(held(Pin, RodEnd::End), (vec![3], vec![]));
-        assert_eq!(held(Wall, RodEnd::Start), (vec![0], vec![0]));
-        assert_eq!(held(Wall, RodEnd::End), (vec![3], vec![3]));
-        assert_eq!(held(NodeAndFrame, RodEnd::Start), (vec![0], vec![0]));
-        assert_eq!(held(NodeAndFrame, RodEnd::End), (vec![3], vec![2]));
-        assert_eq!(held(TwoNodesAndFrame, RodEnd::Start), (vec![0, 1], vec![0]));
-        assert_eq!(held(TwoNodesAndFrame, RodEnd::End), (vec![2, 3], vec![2]));
+        assert_eq!(held(Pin, End::Start), (vec![0], vec![]));
+        assert_eq!(held(Pin, End::End), (vec![3], vec![]));
+        assert_eq!(held(Wall, End::Start), (vec![0], vec![0]));
+        assert_eq!(held(Wall, End::End), (vec![3], vec![3]));
+        assert_eq!(held(NodeAndFrame, End::Start), (vec![0], vec![0]));
+        assert_eq!(held(NodeAndFrame, End::End), (vec![3], vec![2]));
+        assert_eq!(held(TwoNodesAndFrame, End::Start), (vec![0, 1], vec![0]));
+        assert_eq!(held(TwoNodesAndFrame, End::End), (vec![2, 3], vec![2]));
     }
 
     #[test]
     fn a_wall_clamp_needs_a_wall() {
         let mut state = State::default();
         let layout = StraightRod::uniform(1, 1.0).push(&mut state).unwrap();
-        for end in [RodEnd::Start, RodEnd::End] {
+        for end in [End::Start, End::End] {
             let error = RodClamp::Wall.hold(&layout, end, &mut state).unwrap_err();
             assert_eq!(error, RodError::NoWall(end));
         }

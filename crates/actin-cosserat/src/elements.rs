@@ -335,7 +335,7 @@ impl SecondOrder for RodElements {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{EnergyGradient, Rigidities, RodClamp, RodEnd, StraightRod};
+    use crate::{End, EnergyGradient, Rigidities, RodClamp, StraightRod};
     use actin_mechanics::testing::{
         assert_fluctuates, assert_is_balanced, assert_is_gradient, assert_is_stiffness, loads_of,
     };
@@ -344,7 +344,7 @@ mod tests {
     fn curved() -> (State, RodElements) {
         let mut state = State::default();
         let rod = StraightRod::uniform(4, 2.0);
-        let layout = rod.push_clamped(RodClamp::Wall, RodEnd::End, &mut state);
+        let layout = rod.push_clamped(RodClamp::Wall, End::End, &mut state);
         let layout = layout.unwrap();
         let material = RodMaterial::new(Rigidities::table4()).unwrap();
         layout
@@ -373,7 +373,7 @@ mod tests {
     fn straight_elements_are_a_straight_rod() {
         let mut state = State::default();
         let rod = StraightRod::uniform(4, 2.0);
-        let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state);
+        let layout = rod.push_clamped(RodClamp::Wall, End::Start, &mut state);
         let layout = layout.unwrap();
         let material = RodMaterial::new(Rigidities::table4()).unwrap();
         let elements = RodElements::at_rest(&state, &layout, material).unwrap();

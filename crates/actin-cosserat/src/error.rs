@@ -1,6 +1,6 @@
 //! Errors of parameters and rods.
 
-use crate::RodEnd;
+use crate::End;
 use thiserror::Error;
 
 /// A parameter out of range.
@@ -96,7 +96,7 @@ pub enum RodError {
     Potential(&'static str),
     /// The end has no wall frame.
     #[error("the {0} of the rod has no wall frame to be clamped to: build it with one")]
-    NoWall(RodEnd),
+    NoWall(End),
 }
 
 impl RodParameterError {

@@ -1,6 +1,6 @@
 //! Bodies and rest lengths of a rod in a state.
 
-use crate::{RodEnd, RodError};
+use crate::{End, RodError};
 use std::ops::Range;
 
 /// Ends of a rod with a held wall frame.
@@ -82,35 +82,35 @@ impl RodLayout {
     }
 
     /// Point at an end.
-    pub fn end_point(&self, end: RodEnd) -> usize {
+    pub fn end_point(&self, end: End) -> usize {
         match end {
-            RodEnd::Start => self.first_point,
-            RodEnd::End => self.first_point + self.segments(),
+            End::Start => self.first_point,
+            End::End => self.first_point + self.segments(),
         }
     }
 
     /// Frame of the segment at an end.
-    pub fn end_frame(&self, end: RodEnd) -> usize {
+    pub fn end_frame(&self, end: End) -> usize {
         match end {
-            RodEnd::Start => self.first_frame,
-            RodEnd::End => self.first_frame + self.segments() - 1,
+            End::Start => self.first_frame,
+            End::End => self.first_frame + self.segments() - 1,
         }
     }
 
     /// Rest length of the segment at an end (nm).
-    pub fn end_length(&self, end: RodEnd) -> f64 {
+    pub fn end_length(&self, end: End) -> f64 {
         match end {
-            RodEnd::Start => self.segment_lengths[0],
-            RodEnd::End => self.segment_lengths[self.segments() - 1],
+            End::Start => self.segment_lengths[0],
+            End::End => self.segment_lengths[self.segments() - 1],
         }
     }
 
     /// Wall frame at an end, or `None`.
-    pub fn wall(&self, end: RodEnd) -> Option<usize> {
+    pub fn wall(&self, end: End) -> Option<usize> {
         let frames = self.frames();
         match end {
-            RodEnd::Start => self.walls.start.then(|| frames.start - 1),
-            RodEnd::End => self.walls.end.then_some(frames.end),
+            End::Start => self.walls.start.then(|| frames.start - 1),
+            End::End => self.walls.end.then_some(frames.end),
         }
     }
 
@@ -222,8 +222,8 @@ mod tests {
         assert_eq!(free.bending_chain(), 7..8);
         let both = RodLayout::new(3, 7, vec![2.0], BOTH).unwrap();
         assert_eq!(both.bending_chain(), 6..9);
-        assert_eq!(both.wall(RodEnd::Start), Some(6));
-        assert_eq!(both.wall(RodEnd::End), Some(8));
+        assert_eq!(both.wall(End::Start), Some(6));
+        assert_eq!(both.wall(End::End), Some(8));
         assert_eq!(both.voronoi_lengths(), [1.0, 1.0]);
     }
 

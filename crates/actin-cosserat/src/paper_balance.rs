@@ -2,7 +2,7 @@
 
 use crate::energy_gradient::write_bending_energies;
 use crate::{
-    BendingElement, RodEnd, RodError, RodLayout, RodMaterial, SegmentCurvature, ShearElement,
+    BendingElement, End, RodError, RodLayout, RodMaterial, SegmentCurvature, ShearElement,
     TwistStretch,
 };
 use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3};
@@ -96,7 +96,7 @@ impl PaperBalance {
     /// Extension `E` of bending element `j`.
     #[inline]
     fn voronoi_extension(&self, j: usize, state: &State) -> f64 {
-        let walls = usize::from(self.layout.wall(RodEnd::Start).is_some());
+        let walls = usize::from(self.layout.wall(End::Start).is_some());
         let half_length = |segment| 0.5 * self.scaled_vector(segment, state).norm();
         // Element j joins the frames of these segments; at a wall one of them is missing.
         let before = j.checked_sub(walls);

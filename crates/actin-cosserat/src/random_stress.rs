@@ -396,7 +396,7 @@ fn decouple_axial(block: &mut Matrix3, without: &Matrix3) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Homogenised, Rigidities, RodClamp, RodEnd, StraightRod};
+    use crate::{End, Homogenised, Rigidities, RodClamp, StraightRod};
     use actin_mechanics::testing::assert_fluctuates;
     use actin_mechanics::{Coordinates, Xorshift, perturb};
     use std::collections::BTreeMap;
@@ -404,7 +404,7 @@ mod tests {
     fn clamped() -> (State, RodLayout) {
         let mut state = State::default();
         let rod = StraightRod::uniform(4, 10.0);
-        let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state);
+        let layout = rod.push_clamped(RodClamp::Wall, End::Start, &mut state);
         (state, layout.unwrap())
     }
 

@@ -1,6 +1,6 @@
 //! Changes of the shape of a rod in a state.
 
-use crate::{RodEnd, RodError, RodLayout};
+use crate::{End, RodError, RodLayout};
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 
 /// Smallest rotation of lab z to a direction, or `None` if the direction is zero or not finite.
@@ -94,7 +94,7 @@ impl RodLayout {
         for (frame, &q) in self.frames().zip(&orientations) {
             state.frames.orientation.set(frame, q);
         }
-        if let Some(wall) = self.wall(RodEnd::End) {
+        if let Some(wall) = self.wall(End::End) {
             state.frames.orientation.set(wall, q);
         }
         Ok(())
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn a_bent_rod_has_the_prescribed_curvatures() {
-        for end in [RodEnd::Start, RodEnd::End] {
+        for end in [End::Start, End::End] {
             let mut state = State::default();
             let rod = StraightRod::uniform(5, 2.0);
             let layout = rod.push_clamped(RodClamp::Wall, end, &mut state).unwrap();

@@ -1,7 +1,7 @@
 use crate::JunctionError;
 use crate::bond::Bond;
 use crate::build::{check_count, check_distance};
-use actin_cosserat::{BendingElement, JoinedElement, RodEnd, RodLayout, RodMaterial, ShearElement};
+use actin_cosserat::{BendingElement, End, JoinedElement, RodLayout, RodMaterial, ShearElement};
 use actin_mechanics::{
     Interaction, Loads, RandomStress, SecondOrder, State, Stiffness, Vector3, rotation,
 };
@@ -191,10 +191,10 @@ impl JunctionWeight {
 
 impl JunctionSide {
     /// End of the rod with the attached monomers.
-    pub fn rod_end(self) -> RodEnd {
+    pub fn rod_end(self) -> End {
         match self {
-            Self::MonomersFirst => RodEnd::Start,
-            Self::RodFirst => RodEnd::End,
+            Self::MonomersFirst => End::Start,
+            Self::RodFirst => End::End,
         }
     }
 }

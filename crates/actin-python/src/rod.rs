@@ -3,8 +3,8 @@
 use crate::errors;
 use crate::terms::Term;
 use actin_cosserat::{
-    CrossSection, EnergyGradient, Rigidities, RodClamp, RodElements, RodEnd, RodLayout,
-    RodMaterial, RotaryInertia, StraightRod, Walls,
+    CrossSection, End, EnergyGradient, Rigidities, RodClamp, RodElements, RodLayout, RodMaterial,
+    RotaryInertia, StraightRod, Walls,
 };
 use actin_mechanics::{Interaction, Matrix3, State, UnitQuaternion, Vector3};
 use nalgebra::Rotation3;
@@ -38,13 +38,13 @@ impl Rod {
     /// Fixed frame before the first segment, if there is a wall.
     #[getter]
     fn start_wall(&self) -> Option<usize> {
-        self.layout.wall(RodEnd::Start)
+        self.layout.wall(End::Start)
     }
 
     /// Fixed frame after the last segment, if there is a wall.
     #[getter]
     fn end_wall(&self) -> Option<usize> {
-        self.layout.wall(RodEnd::End)
+        self.layout.wall(End::End)
     }
 
     /// Rest length.
@@ -117,7 +117,7 @@ impl RodArguments<'_> {
             return Err(PyValueError::new_err("a rod needs at least two nodes"));
         }
         let [start, end] = self.clamps.map(|name| name.map(clamp).transpose());
-        let clamps = [(RodEnd::Start, start?), (RodEnd::End, end?)];
+        let clamps = [(End::Start, start?), (End::End, end?)];
         let needs_wall = |k: usize| clamps[k].1.is_some_and(RodClamp::needs_wall);
         let rod = StraightRod {
             start: nodes[0],

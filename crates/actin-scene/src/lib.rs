@@ -61,7 +61,7 @@ mod types;
 mod validate;
 
 pub use actin_cosserat::{
-    CubicShear, PolynomialStretch, RootedStretch, RotaryInertia, SidedTwist, Stiffening,
+    CubicShear, End, PolynomialStretch, RootedStretch, RotaryInertia, SidedTwist, Stiffening,
     StretchLaw, TanhTwist, TwistRise, TwistStretch as TwistStretchLaw,
 };
 pub use actin_coupling::JunctionWeight;
@@ -104,7 +104,7 @@ pub use text::{Override, SceneText};
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use tree::{Kind as SceneKind, SceneValue};
 pub use types::{
-    Clamp, Dynamics, End, Equilibrium, Filament, FreeTranslation, Hinge, Hold, Integrator, Scene,
+    Clamp, Dynamics, Equilibrium, Filament, FreeTranslation, Hinge, Hold, Integrator, Scene,
     Setting, Stage, StopTolerances, Task, TimeCourse,
 };
 pub use validate::MAX_EXACT_INTEGER;

@@ -2,7 +2,7 @@
 
 use super::model::{JunctionModel, Monomers, RodModel};
 use super::{
-    Bead, Brownian, DragModel, Imperfection, Linker, Load, Observable, Output, PeriodicBox,
+    Bead, Brownian, DragModel, End, Imperfection, Linker, Load, Observable, Output, PeriodicBox,
     Quantity, Repulsion, Sections, Shape, Start, Thermal, scene_file::SceneFile,
 };
 use schemars::JsonSchema;
@@ -183,15 +183,6 @@ pub struct Filament {
 
 pub(super) fn along_z() -> [f64; 3] {
     [0.0, 0.0, 1.0]
-}
-
-/// End of a filament.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum End {
-    /// End at arc length 0.
-    Start,
-    /// End at the largest arc length.
-    End,
 }
 
 /// Clamped end.

@@ -84,7 +84,7 @@ impl Builder<'_> {
             }
             Body::Rod(layout) => {
                 let held = models::rod_clamp(clamp.hold)
-                    .hold(layout, models::rod_end(clamp.end), state)
+                    .hold(layout, clamp.end, state)
                     .map_err(|error| {
                         let key = format!("clamps[{i}].hold");
                         SceneProblem::new(key, format!("{:?}", clamp.hold), error.to_string())
@@ -94,7 +94,7 @@ impl Builder<'_> {
                 };
                 // The wall frame becomes the free cross-section, which the spring joins to the held
                 // frame.
-                if let Some(wall) = layout.wall(models::rod_end(clamp.end)) {
+                if let Some(wall) = layout.wall(clamp.end) {
                     state.frames.release(wall);
                     let hinge = Hinge::new(clamp, [anchor, wall])
                         .map_err(problem_at(format!("clamps[{i}].hinge")))?;

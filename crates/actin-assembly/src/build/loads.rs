@@ -3,7 +3,7 @@
 use super::linkers::Nodes;
 use super::{Body, Builder, Strand};
 use crate::scene::{Couple, End, Force, LinkerSite, Load, Resultant, SceneProblem, path::UNSET};
-use crate::{BodyKind, Part, models, problem_at};
+use crate::{BodyKind, Part, problem_at};
 use actin_cosserat::RodLayout;
 use actin_coupling::{ForceKind, LinkerError, RodPlace, Site, SiteForce};
 use actin_ellipsoid::Monomers;
@@ -211,7 +211,6 @@ impl Builder<'_> {
         let state = &self.stock.state;
         match &strand.bodies[strand.filament.end_index(end)] {
             Body::Rod(layout) => {
-                let end = models::rod_end(end);
                 // A free wall frame is the cross-section at the end.
                 let wall = layout.wall(end).filter(|wall| state.frames.is_free(*wall));
                 vec![(wall.unwrap_or_else(|| layout.end_frame(end)), 1.0)]

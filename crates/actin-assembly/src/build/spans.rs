@@ -3,7 +3,8 @@
 use super::sampled::Sampling;
 use super::{Body, Builder, Strand};
 use crate::Part;
-use actin_cosserat::{RodEnd, RodLayout};
+use crate::scene::End;
+use actin_cosserat::RodLayout;
 use actin_ellipsoid::{InterfaceKind, Monomers};
 
 impl Builder<'_> {
@@ -67,13 +68,13 @@ impl Strand<'_> {
         let boundary = self.resolved[i].to_nm;
         match (&self.bodies[i], &self.bodies[i + 1]) {
             (Body::Monomers(m), Body::Rod(layout)) => {
-                let middle = boundary + 0.5 * layout.end_length(RodEnd::Start);
+                let middle = boundary + 0.5 * layout.end_length(End::Start);
                 (m.count - n..m.count)
                     .map(|k| [s_nm(m, k), middle])
                     .collect()
             }
             (Body::Rod(layout), Body::Monomers(m)) => {
-                let middle = boundary - 0.5 * layout.end_length(RodEnd::End);
+                let middle = boundary - 0.5 * layout.end_length(End::End);
                 (0..n).map(|k| [middle, s_nm(m, k)]).collect()
             }
             _ => unreachable!("a junction is between monomers and a rod"),
@@ -95,8 +96,8 @@ fn rod(layout: &RodLayout, from_nm: f64) -> Vec<[f64; 2]> {
         let to = if k == last { nodes[last] } else { middle(k) };
         [from, to]
     };
-    let first = usize::from(layout.wall(RodEnd::Start).is_none());
-    let past = nodes.len() - usize::from(layout.wall(RodEnd::End).is_none());
+    let first = usize::from(layout.wall(End::Start).is_none());
+    let past = nodes.len() - usize::from(layout.wall(End::End).is_none());
     let segments = nodes.windows(2).map(|pair| [pair[0], pair[1]]);
     segments.chain((first..past).map(about)).collect()
 }

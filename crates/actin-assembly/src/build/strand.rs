@@ -355,8 +355,7 @@ impl<'a> Strand<'a> {
             kind: kinds[usize::from(is_joint)],
             s_nm,
         };
-        let walls = [actin_cosserat::RodEnd::Start, actin_cosserat::RodEnd::End]
-            .map(|end| layout.wall(end).is_some());
+        let walls = [End::Start, End::End].map(|end| layout.wall(end).is_some());
         let is_new = walls[0] && !goes_on[0];
         stock.frames.extend(is_new.then(|| wall(from_nm, false)));
         stock

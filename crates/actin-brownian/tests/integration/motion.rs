@@ -1,6 +1,6 @@
 use crate::common;
 use actin_brownian::{Flow, Relaxation};
-use actin_cosserat::{RodClamp, RodEnd, RodLayout, StraightRod};
+use actin_cosserat::{End, RodClamp, RodLayout, StraightRod};
 use actin_mechanics::{State, System, UnitQuaternion, Vector3, rotation};
 use common::{FRICTION, advance, free_rod, friction_of, law, layout_of, rigidities, tip};
 
@@ -90,7 +90,7 @@ fn bending_relaxes_as_that_of_slender_rods() {
         let mut state = State::default();
         let straight = StraightRod::uniform(100, length / 100.0);
         let rod = match hold {
-            Hold::Clamped => straight.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state),
+            Hold::Clamped => straight.push_clamped(RodClamp::Wall, End::Start, &mut state),
             Hold::Free | Hold::Pinned => straight.push(&mut state),
         };
         let rod = rod.unwrap();

@@ -2,7 +2,7 @@
 
 use super::end_shear::{END_SHEAR_NM, EndShear};
 use crate::bending::BendingLoads;
-use crate::{BendingElement, RodEnd, RodLayout, RodMaterial};
+use crate::{BendingElement, End, RodLayout, RodMaterial};
 use actin_mechanics::{Loads, Matrix3, State, Stiffness, Vector3, rotation};
 
 /// Additional length for twist at a blocked end (nm).
@@ -55,9 +55,9 @@ pub(super) fn end_twists(
     let [at_start, at_end] = ends.map(|end| f64::from(u8::from(end == EndShear::Blocked)));
     let length = layout.length();
     // The first element starts at the wall, or at the middle of the first segment.
-    let mut from = match layout.wall(RodEnd::Start) {
+    let mut from = match layout.wall(End::Start) {
         Some(_) => 0.0,
-        None => 0.5 * layout.end_length(RodEnd::Start),
+        None => 0.5 * layout.end_length(End::Start),
     };
     let elements = layout.bending_chain().zip(layout.voronoi_lengths());
     let all = elements.enumerate().map(|(element, (frame, &own))| {

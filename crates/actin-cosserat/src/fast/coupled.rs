@@ -11,7 +11,7 @@ use super::ends::Ends;
 use super::laws::Law;
 use super::rod::AddLoads;
 use super::rod::Rod;
-use crate::{RodEnd, RodLayout};
+use crate::{End, RodLayout};
 use actin_mechanics::wide::{self, Columns, ShiftedDown, ShiftedUp, Simd, Wide3};
 use actin_mechanics::{State, rotation};
 use std::ops::Range;
@@ -40,7 +40,7 @@ impl<L: Law> AddLoads<'_, L> {
         }
         let rest = chain.last(simd);
         torque.add(simd, chain.groups - 1, wide::add(simd, torques, rest));
-        if let Some(wall) = layout.wall(RodEnd::Start) {
+        if let Some(wall) = layout.wall(End::Start) {
             let on_wall = wide::lane(simd, S::F64_LANES - 1, first.before);
             self.loads.torque.add(wall, on_wall);
         }
@@ -85,7 +85,7 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         let (x, q) = (&state.points.position, &state.frames.orientation);
         let bodies = &rod.bodies;
         let ([length, inverse], [before, after]) = (&bodies.lengths, &bodies.shares);
-        let elements = layout.segments() + usize::from(layout.wall(RodEnd::End).is_some());
+        let elements = layout.segments() + usize::from(layout.wall(End::End).is_some());
         let mut chain = Self {
             law: rod.law,
             groups: elements.div_ceil(S::F64_LANES),
@@ -213,7 +213,7 @@ fn frames_and_end(layout: &RodLayout) -> Range<usize> {
 
 /// Angle between a wall at the start and the first segment (rad), with its coefficient.
 fn angle_at_wall(layout: &RodLayout, state: &State) -> [f64; 4] {
-    let Some(wall) = layout.wall(RodEnd::Start) else {
+    let Some(wall) = layout.wall(End::Start) else {
         return [0.0; 4];
     };
     let q = &state.frames.orientation;

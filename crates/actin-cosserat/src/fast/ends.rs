@@ -5,7 +5,7 @@
     reason = "vector code must be compiled into the function that enables the instructions"
 )]
 
-use crate::RodEnd;
+use crate::End;
 use crate::bending::BendingLoads;
 use actin_mechanics::wide::{self, Simd, Wide3};
 use actin_mechanics::{Loads, State, Vector3, rotation};
@@ -15,7 +15,7 @@ pub(super) const MOST_JOINED: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JoinedEnd {
     pub(super) frames: [usize; 2],
-    pub(super) end: RodEnd,
+    pub(super) end: End,
     /// Weight in the mean curvature divided by rest distance (1/nm).
     pub(super) share: f64,
     /// Weighted difference between the rest curvatures of the rod and of the element (rad/nm).
@@ -24,7 +24,7 @@ pub(super) struct JoinedEnd {
 
 impl JoinedEnd {
     fn number(&self) -> usize {
-        usize::from(self.end == RodEnd::End)
+        usize::from(self.end == End::End)
     }
 }
 

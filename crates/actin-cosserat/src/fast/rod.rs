@@ -3,7 +3,7 @@
 use super::ends::{JoinedEnd, MOST_JOINED};
 use super::laws::Law;
 use crate::extended::{AdjacentElement, ExtendedSegments};
-use crate::{RodEnd, RodLayout, SegmentCurvature};
+use crate::{End, RodLayout, SegmentCurvature};
 use actin_mechanics::wide::Arch;
 use actin_mechanics::{Loads, State};
 
@@ -42,7 +42,7 @@ impl Bodies {
         }
         let mut inverse_distances = zeros();
         // Without a wall at the start, the first segment has no preceding element.
-        let first = usize::from(layout.wall(RodEnd::Start).is_none());
+        let first = usize::from(layout.wall(End::Start).is_none());
         let elements = inverse_distances[first..].iter_mut();
         for (inverse, distance) in elements.zip(layout.voronoi_lengths()) {
             *inverse = distance.recip();
@@ -72,7 +72,7 @@ impl Bodies {
     /// Inverse rest distances of the bending elements (1/nm).
     #[inline]
     pub(super) fn inverse_distances(&self, layout: &RodLayout) -> &[f64] {
-        let first = usize::from(layout.wall(RodEnd::Start).is_none());
+        let first = usize::from(layout.wall(End::Start).is_none());
         &self.inverse_distances[first..][..layout.voronoi_lengths().len()]
     }
 }
@@ -120,8 +120,8 @@ impl<L: Law> Rod<L> {
         } else {
             let at = |end| layout.end_frame(end) == frame;
             let end = match frames {
-                [_, second] if second == frame && at(RodEnd::Start) => RodEnd::Start,
-                [first, _] if first == frame && at(RodEnd::End) => RodEnd::End,
+                [_, second] if second == frame && at(End::Start) => End::Start,
+                [first, _] if first == frame && at(End::End) => End::End,
                 _ => return None,
             };
             self.joined.push(JoinedEnd {

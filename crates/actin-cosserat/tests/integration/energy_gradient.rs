@@ -1,7 +1,7 @@
 //! Analytic states of the gradient law.
 
 use crate::common;
-use actin_cosserat::{EnergyGradient, Rigidities, RodEnd, RodLayout, RodMaterial, StraightRod};
+use actin_cosserat::{End, EnergyGradient, Rigidities, RodLayout, RodMaterial, StraightRod};
 use actin_mechanics::testing::loads_of;
 use actin_mechanics::{Interaction, State, Vector3, rotation};
 use common::ALL_WALLS;
@@ -22,9 +22,9 @@ fn assert_only_end_couples(state: &State, layout: &RodLayout, couple: Vector3) {
     let law = EnergyGradient::new(layout.clone(), table4());
     let loads = loads_of(&law, state);
     for (i, torque) in loads.torque.iter().enumerate() {
-        let expected = if i == layout.end_frame(RodEnd::Start) {
+        let expected = if i == layout.end_frame(End::Start) {
             couple
-        } else if i == layout.end_frame(RodEnd::End) {
+        } else if i == layout.end_frame(End::End) {
             -couple
         } else {
             Vector3::zeros()
@@ -119,7 +119,7 @@ fn walls_bend_over_half_a_segment() {
 fn energies_are_in_the_order_of_the_elements() {
     let (mut state, layout) = actin_rod();
     state.points.position.add(16, Vector3::z() * 0.01);
-    let last = layout.end_frame(RodEnd::Start);
+    let last = layout.end_frame(End::Start);
     let turned = rotation::exp(Vector3::z() * 0.01);
     state.frames.orientation.set(last, turned);
     let law = EnergyGradient::new(layout, table4());

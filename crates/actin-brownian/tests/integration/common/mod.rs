@@ -1,7 +1,7 @@
 #![allow(dead_code, reason = "each test uses some of it")]
 
 use actin_brownian::{Brownian, Dashpot, Friction, TurnDashpot};
-use actin_cosserat::{EnergyGradient, Rigidities, RodEnd, RodLayout, RodMaterial, StraightRod};
+use actin_cosserat::{End, EnergyGradient, Rigidities, RodLayout, RodMaterial, StraightRod};
 use actin_equilibrium::{BodyOrder, Layout};
 use actin_integrate::Stepper;
 use actin_mechanics::{Interaction, State, System, Vector3};
@@ -96,7 +96,7 @@ pub(crate) fn advance(
 }
 
 pub(crate) fn tip(rod: &RodLayout) -> usize {
-    rod.end_point(RodEnd::End)
+    rod.end_point(End::End)
 }
 
 /// Mean of independent values and its standard error.

@@ -1,7 +1,7 @@
 //! Clamped rod.
 
 use actin_cosserat::{
-    EnergyGradient, Rigidities, RodClamp, RodEnd, RodLayout, RodMaterial, StraightRod,
+    End, EnergyGradient, Rigidities, RodClamp, RodLayout, RodMaterial, StraightRod,
 };
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
 use actin_mechanics::{Interaction, PointLoad, State, Vector3};
@@ -34,7 +34,7 @@ impl Rod {
     fn built(&self) -> (State, RodLayout) {
         let mut state = State::default();
         let rod = StraightRod::uniform(self.segments, self.length / self.segments as f64);
-        let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state);
+        let layout = rod.push_clamped(RodClamp::Wall, End::Start, &mut state);
         (state, layout.unwrap())
     }
 
