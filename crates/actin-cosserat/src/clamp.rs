@@ -31,19 +31,22 @@ pub struct HeldBodies {
     pub frames: Range<usize>,
 }
 
-impl HeldBodies {}
-
 impl RodClamp {
     /// Returns `true` if the rod needs a wall frame at the clamped end.
     pub fn needs_wall(self) -> bool {
         self == Self::Wall
     }
 
-    /// Bodies held at an end of a rod.
+    /// Holds an end and returns the held bodies.
     ///
     /// # Errors
     /// If the clamp is [`Wall`](Self::Wall) and the end has no wall frame.
-    pub fn held_bodies(self, layout: &RodLayout, end: End) -> Result<HeldBodies, RodError> {
+    pub fn hold(
+        self,
+        layout: &RodLayout,
+        end: End,
+        state: &mut State,
+    ) -> Result<HeldBodies, RodError> {
         let frame = match self {
             Self::Wall => layout.wall(end).ok_or(RodError::NoWall(end))?,
             Self::NodeAndFrame | Self::TwoNodesAndFrame | Self::Pin => layout.end_frame(end),
@@ -57,26 +60,10 @@ impl RodClamp {
             End::Start => start..start + nodes,
             End::End => past - nodes..past,
         };
-        Ok(HeldBodies {
-            points,
-            frames: frame..frame + usize::from(self != Self::Pin),
-        })
-    }
-
-    /// Holds an end and returns the held bodies.
-    ///
-    /// # Errors
-    /// If the clamp is [`Wall`](Self::Wall) and the end has no wall frame.
-    pub fn hold(
-        self,
-        layout: &RodLayout,
-        end: End,
-        state: &mut State,
-    ) -> Result<HeldBodies, RodError> {
-        let held = self.held_bodies(layout, end)?;
-        held.points.clone().for_each(|i| state.points.hold(i));
-        held.frames.clone().for_each(|i| state.frames.hold(i));
-        Ok(held)
+        let frames = frame..frame + usize::from(self != Self::Pin);
+        points.clone().for_each(|i| state.points.hold(i));
+        frames.clone().for_each(|i| state.frames.hold(i));
+        Ok(HeldBodies { points, frames })
     }
 }
 

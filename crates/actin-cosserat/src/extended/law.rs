@@ -151,24 +151,6 @@ impl SegmentLaw {
         (force, couple)
     }
 
-    /// Energy per rest length (pN) of a rod with uniform strain `sigma` and curvature `kappa`
-    /// (rad/nm, body axes).
-    ///
-    /// ```
-    /// use actin_cosserat::{Rigidities, RodMaterial, SegmentLaw};
-    /// use actin_mechanics::Vector3;
-    /// let material = RodMaterial::new(Rigidities::table4())?;
-    /// // B1 = 3.9e4 pN nm^2 and a radius of 1000 nm.
-    /// let (straight, bent) = (Vector3::zeros(), Vector3::x() * 1e-3);
-    /// let energy = SegmentLaw::default().uniform_energy(&material, straight, bent);
-    /// assert!((energy - 0.0195).abs() < 1e-12);
-    /// # Ok::<(), actin_cosserat::RodParameterError>(())
-    /// ```
-    pub fn uniform_energy(&self, material: &RodMaterial, sigma: Vector3, kappa: Vector3) -> f64 {
-        let of_segments = self.energy(material, sigma, MeanCurvature::inside(kappa));
-        of_segments + material.bending_energy_density(kappa)
-    }
-
     pub(crate) fn energy(
         &self,
         material: &RodMaterial,
