@@ -92,13 +92,6 @@ struct SceneParts {
 }
 
 impl SceneParts {
-    fn displace(&mut self, scene: &Scene, filaments: &[FilamentSpan]) {
-        let bodies = (self.points.as_slice(), self.frames.as_slice());
-        imperfection::displace(scene, filaments, bodies, &mut self.state);
-    }
-}
-
-impl SceneParts {
     fn push_term(&mut self, interaction: Box<dyn Interaction>, part: Part) {
         let name = interaction.term();
         self.terms.push(Term { name, part });
@@ -203,7 +196,8 @@ impl<'a> Builder<'a> {
         let energy_balance = energy_balance::of_motion(&scene.task, &mut self.stock.state);
         let mut stock = self.stock;
         let rest = stock.state.clone();
-        stock.displace(&scene, &self.filaments);
+        let bodies = (stock.points.as_slice(), stock.frames.as_slice());
+        imperfection::displace(&scene, &self.filaments, bodies, &mut stock.state);
         Assembly {
             drive,
             scene,

@@ -196,11 +196,8 @@ impl FilamentDrag<'_> {
     }
 
     fn of_end(&self, end: End) -> Dashpot {
-        let sections = self.assembly.filaments[self.filament].sections.clone();
-        let section = match end {
-            End::Start => sections.start,
-            End::End => sections.end - 1,
-        };
+        let first = self.assembly.filaments[self.filament].sections.start;
+        let section = first + self.assembly.written(self.filament).end_index(end);
         let across = self.cylinder.at_ends();
         let friction = Vector3::new(across, across, 0.0);
         if let Some(rod) = self.rod(section) {

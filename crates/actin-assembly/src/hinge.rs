@@ -62,12 +62,8 @@ impl Assembly {
         if self.held.fixed_at(filament, end) == Some(clamp) {
             return None;
         }
-        let sections = &self.filaments[filament].sections;
-        let section = match end {
-            End::Start => sections.start,
-            End::End => sections.end - 1,
-        };
-        let rod = self.rod_of(section)?;
+        let first = self.filaments[filament].sections.start;
+        let rod = self.rod_of(first + self.written(filament).end_index(end))?;
         let wall = rod.layout.wall(end)?;
         let behind = *self.clamps[clamp].frames.first()?;
         Some([behind, wall])
