@@ -1,8 +1,8 @@
 //! Flow of the fluid in `Brownian`.
 
 use super::SceneProblem;
+use super::place::unit_vector;
 use super::rules::show;
-use actin_mechanics::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,7 +41,7 @@ impl Flow {
         match *self {
             Self::AtRest | Self::Stream { .. } => Ok(()),
             Self::Shear { along, across, .. } => {
-                let [u, v] = [along, across].map(unit);
+                let [u, v] = [along, across].map(unit_vector);
                 if u.dot(&v).abs() <= PERPENDICULAR {
                     return Ok(());
                 }
@@ -77,9 +77,4 @@ impl Flow {
         let key = "task.flow.rate_per_s";
         Err(SceneProblem::new(key, show(rate_per_s), rule))
     }
-}
-
-fn unit(direction: [f64; 3]) -> Vector3 {
-    let direction = Vector3::from(direction);
-    (direction / direction.amax()).normalize()
 }

@@ -88,7 +88,7 @@ pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Loa
 pub use model::{ForceLaw, JunctionModel, Material, Monomers, RodModel};
 pub use observable::{Observable, Output, Point};
 pub use periodic::PeriodicBox;
-pub use place::ClampedEnds;
+pub use place::{ClampedEnds, unit_vector};
 pub use problem::{ParseReport, SceneError, SceneProblem};
 pub use read::{read_all, read_ron, to_ron};
 pub use repulsion::{Cuboid, Cylinder, Plane, Repulsion, Sphere, WallName};
@@ -99,7 +99,7 @@ pub use seeds::RandomPart;
 pub use shape::Shape;
 pub use stage::unset_loads;
 pub use start::Start;
-pub use support::is_across;
+pub use support::{is_across, lowest_joined};
 pub use text::{Override, SceneText};
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use tree::{Kind as SceneKind, SceneValue};

@@ -28,9 +28,7 @@ impl Filament {
 
     /// Returns the unit vector along the filament as built (lab frame).
     pub fn axis(&self) -> Vector3 {
-        let direction = Vector3::from(self.direction);
-        // The division prevents overflow and underflow of squares.
-        (direction / direction.amax()).normalize()
+        unit_vector(self.direction)
     }
 
     /// Returns the rotation from a filament along lab +z, with azimuth 0 at +x, to the filament as built:
@@ -251,6 +249,13 @@ impl FreeTranslation {
             Self::Freely => vec![Vector3::x(), Vector3::y(), Vector3::z()],
         }
     }
+}
+
+/// Returns the unit vector along a direction that is not zero.
+pub fn unit_vector(direction: [f64; 3]) -> Vector3 {
+    let direction = Vector3::from(direction);
+    // The division prevents overflow and underflow of squares.
+    (direction / direction.amax()).normalize()
 }
 
 #[cfg(test)]

@@ -67,7 +67,9 @@ pub(super) fn check_support(scene: &Scene) -> Result<(), SceneProblem> {
     if scene.has_walls() {
         return Ok(());
     }
-    let joined = joined(scene);
+    let linkers = scene.linkers.iter();
+    let pairs = linkers.filter_map(|linker| Some([linker.filament, linker.to?.filament]));
+    let joined = lowest_joined(scene.number_of_filaments(), pairs);
     let groups = groups(scene, &joined);
     let factors = path::load_factors(&scene.path, scene.loads.len());
     groups
@@ -255,18 +257,14 @@ fn factor(factors: &Factors, i: usize, stages: usize) -> f64 {
     factors[i].as_ref().map_or(path::UNSET, |v| v.after(stages))
 }
 
-/// For each filament, the lowest index of the filaments that linkers join to it.
-fn joined(scene: &Scene) -> Vec<usize> {
-    let mut lower: Vec<usize> = (0..scene.number_of_filaments()).collect();
-    let pairs = scene
-        .linkers
-        .iter()
-        .filter_map(|linker| Some((linker.filament, linker.to?.filament)));
-    for (one, other) in pairs {
-        let (one, other) = (lowest(&mut lower, one), lowest(&mut lower, other));
+/// Returns for each of `count` filaments the lowest index of the filaments that pairs join to it.
+pub fn lowest_joined(count: usize, pairs: impl IntoIterator<Item = [usize; 2]>) -> Vec<usize> {
+    let mut lower: Vec<usize> = (0..count).collect();
+    for pair in pairs {
+        let [one, other] = pair.map(|filament| lowest(&mut lower, filament));
         lower[one.max(other)] = one.min(other);
     }
-    (0..lower.len()).map(|f| lowest(&mut lower, f)).collect()
+    (0..count).map(|f| lowest(&mut lower, f)).collect()
 }
 
 /// Finds the representative of a filament in a union-find structure, with path halving.

@@ -2,7 +2,7 @@
 
 use super::{Checked, RecordTimes, View};
 use crate::loads::loads_of;
-use crate::scene::{Factor, PeriodicBox, Scene, Setting};
+use crate::scene::{Factor, PeriodicBox, Scene, Setting, lowest_joined};
 use crate::{Assembly, Part};
 use actin_mechanics::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -247,26 +247,12 @@ impl Linkers {
 
 /// Returns the number of filaments of each cluster of joined filaments.
 fn cluster_sizes(filaments: usize, joined: &[[usize; 2]]) -> Vec<usize> {
-    let mut parent: Vec<usize> = (0..filaments).collect();
-    for pair in joined {
-        let [a, b] = pair.map(|filament| root(&mut parent, filament));
-        parent[a] = b;
-    }
     let mut sizes = vec![0; filaments];
-    for filament in 0..filaments {
-        sizes[root(&mut parent, filament)] += 1;
+    for representative in lowest_joined(filaments, joined.iter().copied()) {
+        sizes[representative] += 1;
     }
     sizes.retain(|size| *size > 0);
     sizes
-}
-
-/// Returns the representative of a cluster; shortens the path to it.
-fn root(parent: &mut [usize], mut filament: usize) -> usize {
-    while parent[filament] != filament {
-        parent[filament] = parent[parent[filament]];
-        filament = parent[filament];
-    }
-    filament
 }
 
 /// Returns mean, root mean square, smallest and largest tension; NaN without linkers.

@@ -7,7 +7,7 @@ use super::step_check::StepCheck;
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, long_steps, spins};
 use crate::Assembly;
-use crate::scene::{Brownian as Task, Flow, Fluid, SceneProblem, Task as AnyTask};
+use crate::scene::{Brownian as Task, Flow, Fluid, SceneProblem, Task as AnyTask, unit_vector};
 use actin_assembly::problem_at;
 use actin_brownian::{Brownian, Layout, Relaxation};
 use actin_integrate::{POSITION_VERLET, Run};
@@ -211,10 +211,6 @@ fn flow(assembly: &Assembly, task: &Task) -> actin_brownian::Flow {
 fn physical_flow(flow: &Flow) -> actin_brownian::Flow {
     const UM_PER_S: f64 = 1e-6;
     const PER_S: f64 = 1e-9;
-    let unit = |direction: [f64; 3]| {
-        let direction = Vector3::from(direction);
-        (direction / direction.amax()).normalize()
-    };
     match *flow {
         Flow::AtRest => actin_brownian::Flow::default(),
         Flow::Stream { velocity_um_per_s } => {
@@ -225,7 +221,7 @@ fn physical_flow(flow: &Flow) -> actin_brownian::Flow {
             along,
             across,
         } => {
-            let [along, across] = [along, across].map(unit);
+            let [along, across] = [along, across].map(unit_vector);
             actin_brownian::Flow::shear(rate_per_s * PER_S, along, across)
         }
     }

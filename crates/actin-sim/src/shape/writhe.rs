@@ -23,7 +23,7 @@ const SAME_WAY: f64 = 1e-5;
 /// Right-handed crossings are positive; a planar polygon has zero writhe. The cost is `n^2 / 2`
 /// solid angles.
 #[cfg(test)]
-pub(crate) fn closed_writhe(points: &[Vector3]) -> f64 {
+fn closed_writhe(points: &[Vector3]) -> f64 {
     let n = points.len();
     let edge = |i: usize| [points[i], points[(i + 1) % n]];
     let mut sum = 0.0;
