@@ -213,12 +213,8 @@ impl Assembly {
     /// # Panics
     /// If the index is out of range.
     pub(crate) fn tip_points_of(&self, filament: usize, end: End) -> Range<usize> {
-        let sections = self.sections_of(filament);
-        let section = match end {
-            End::Start => sections.first(),
-            End::End => sections.last(),
-        };
-        section.map_or(0..0, |section| section.tip_points(end))
+        let section = self.written(filament).end_index(end);
+        self.sections_of(filament)[section].tip_points(end)
     }
 
     /// Position of the tip of filament 0 at `end` in `state` (nm, lab frame).

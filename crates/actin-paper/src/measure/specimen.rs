@@ -74,13 +74,12 @@ impl Specimen {
     }
 
     fn clamp(&self, end: End, slides: FreeTranslation) -> Clamp {
-        let sections = &self.filament.sections;
-        let section = match end {
-            End::Start => sections.first(),
-            End::End => sections.last(),
+        let section = &self.filament.sections[self.filament.end_index(end)];
+        let hold = if section.is_rod() {
+            self.hold
+        } else {
+            Hold::Wall
         };
-        let is_rod = matches!(section, Some(Section::Rod { .. }));
-        let hold = if is_rod { self.hold } else { Hold::Wall };
         Clamp {
             hold,
             slides,

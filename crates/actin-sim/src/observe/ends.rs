@@ -35,10 +35,6 @@ pub(super) fn end_to_end(view: &View<'_>, filament: usize) -> Vec<f64> {
 
 /// Columns of the force and torque of a clamp on the filament, with the torque about the clamped point.
 pub(super) fn reaction_columns(filament: usize, end: End) -> Vec<String> {
-    let end = match end {
-        End::Start => "start",
-        End::End => "end",
-    };
     let name = format!("reaction[{filament}]_{end}");
     let force = vector(&format!("{name}_force"), "_pn");
     let torque = vector(&format!("{name}_torque"), "_pn_nm");

@@ -30,17 +30,13 @@ pub struct HingeSlip {
 
 impl fmt::Display for HingeSlip {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let end = match self.end {
-            End::Start => "start",
-            End::End => "end",
-        };
         let [angle, twist] = self.turned_deg;
         write!(
             f,
-            "the hinge at the {end} of filament {} was turned past half a turn ({angle:.0} deg just before, {twist:.0} \
+            "the hinge at the {} of filament {} was turned past half a turn ({angle:.0} deg just before, {twist:.0} \
              deg of it about the filament), where its spring loses a whole turn; use a stiffer hinge, a smaller \
              turn or a smaller load",
-            self.filament
+            self.end, self.filament
         )
     }
 }

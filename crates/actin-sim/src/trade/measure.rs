@@ -441,15 +441,9 @@ fn of_clamps(
     numbers: Range<usize>,
 ) -> Vec<Item> {
     let named = assembly.clamps.iter().map(|clamp| {
-        let end = match clamp.end {
-            End::Start => "start",
-            End::End => "end",
-        };
-        let name = name_of(assembly, &format!("{end} {what}"), clamp.filament);
-        let reaction = Observable::EndReaction {
-            filament: clamp.filament,
-            end: clamp.end,
-        };
+        let (filament, end) = (clamp.filament, clamp.end);
+        let name = name_of(assembly, &format!("{end} {what}"), filament);
+        let reaction = Observable::EndReaction { filament, end };
         Item::new(name, unit, Kind::Observed(reaction, numbers.clone()))
     });
     named.collect()
