@@ -7,7 +7,7 @@
 //! A [`Run`] advances a [`System`] and calls [`Observer`]s with synchronised states. It ends at its
 //! last step, by a [`StopRule`], by an observer, or with a [`RunFailure`]. A run can be interrupted
 //! at a [`Pause`] and resumed from a [`Checkpoint`] with bitwise equal results.
-//! [`Run::execute_split`] runs custom [`Split`] systems, and [`Run::execute_steps`] custom
+//! [`Run::execute_split`] runs custom [`Split`] systems, and [`Run::execute_from`] custom
 //! [`Stepper`]s.
 //!
 //! Times are in ns, lengths in nm, forces in pN, rates in 1/ns.

@@ -264,57 +264,36 @@ impl Run {
         system: &mut System,
         observers: &mut [&mut dyn Observer],
     ) -> Result<RunOutcome, RunFailure> {
-        Execution::new(self, None, system, observers).run()
+        self.execute_from(None, None, system, observers)
     }
 
-    /// Continues a run from a `checkpoint` of a [`Pause`](crate::Pause) of the same run and an
-    /// equal system. The present state of `system` is ignored. Results and counters agree bitwise
-    /// with the uninterrupted run. The state of the checkpoint is not observed again. A checkpoint
-    /// of the end gives the same outcome.
+    /// Advances `system` like [`execute`](Self::execute), from a `checkpoint` and with the steps of a `stepper`
+    /// if these are given.
     ///
-    /// # Errors
-    /// See [`execute`](Self::execute).
+    /// A checkpoint is from a [`Pause`](crate::Pause) of the same run and an equal system. The
+    /// present state of `system` is then ignored. Results and counters agree bitwise with the
+    /// uninterrupted run. The state of the checkpoint is not observed again. A checkpoint of the end
+    /// gives the same outcome.
     ///
-    /// # Panics
-    /// If the numbers of bodies or controls differ from those of `system`.
-    pub fn resume(
-        &self,
-        checkpoint: &Checkpoint,
-        system: &mut System,
-        observers: &mut [&mut dyn Observer],
-    ) -> Result<RunOutcome, RunFailure> {
-        Execution::resume(self, checkpoint, None, system, observers).run_on()
-    }
-
-    /// Advances `system` with the steps of `stepper`, like [`execute`](Self::execute). The method,
-    /// drag and heat bath of the run are ignored.
+    /// With a stepper, the method, drag and heat bath of the run are ignored.
     ///
     /// # Errors
     /// See [`execute`](Self::execute). Also if a step fails.
-    pub fn execute_steps(
-        &self,
-        stepper: &mut dyn Stepper,
-        system: &mut System,
-        observers: &mut [&mut dyn Observer],
-    ) -> Result<RunOutcome, RunFailure> {
-        Execution::new(self, Some(stepper), system, observers).run()
-    }
-
-    /// Continues from `checkpoint` with the steps of `stepper`, like [`resume`](Self::resume).
-    ///
-    /// # Errors
-    /// See [`execute_steps`](Self::execute_steps).
     ///
     /// # Panics
-    /// See [`resume`](Self::resume).
-    pub fn resume_steps(
+    /// If the numbers of bodies or controls of the checkpoint differ from those of `system`.
+    pub fn execute_from(
         &self,
-        checkpoint: &Checkpoint,
-        stepper: &mut dyn Stepper,
+        checkpoint: Option<&Checkpoint>,
+        stepper: Option<&mut dyn Stepper>,
         system: &mut System,
         observers: &mut [&mut dyn Observer],
     ) -> Result<RunOutcome, RunFailure> {
-        Execution::resume(self, checkpoint, Some(stepper), system, observers).run_on()
+        let execution = Execution::new(self, checkpoint, stepper, system, observers);
+        match checkpoint {
+            Some(_) => execution.run_on(),
+            None => execution.run(),
+        }
     }
 
     pub(crate) fn advance(&self, system: &mut impl Thermostat, first_step: u64, steps: u64) {

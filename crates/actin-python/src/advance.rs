@@ -7,7 +7,7 @@ use actin_equilibrium::{
     Equilibrium, Layout, Newton, NewtonFailure, NewtonOptions, Residual, SolveError,
 };
 use actin_integrate::{
-    Bath, Composition, Drag, Moment, Observer, Pause, Run, RunFailure, largest_frequency,
+    Bath, Composition, Drag, Moment, Observer, Pause, Run, RunFailure, Stepper, largest_frequency,
     stable_step,
 };
 use actin_mechanics::State;
@@ -91,9 +91,9 @@ impl System {
         };
         self.prepare_stepper()?;
         let (mechanics, stepper) = (&mut self.mechanics, &mut self.stepper);
-        let ended = py.detach(|| match stepper {
-            Some(stepper) => run.execute_steps(stepper, mechanics, &mut [&mut looker]),
-            None => run.execute(mechanics, &mut [&mut looker]),
+        let ended = py.detach(|| {
+            let stepper = stepper.as_mut().map(|own| own as &mut dyn Stepper);
+            run.execute_from(None, stepper, mechanics, &mut [&mut looker])
         });
         match ended {
             Ok(outcome) => {

@@ -6,10 +6,10 @@ use crate::{
 use actin_mechanics::{Coordinates, Split, State, System};
 use std::ops::ControlFlow;
 
-pub(crate) struct Execution<'a, 'o> {
+pub(crate) struct Execution<'a, 's, 'o> {
     run: &'a Run,
     /// Custom steps, if any.
-    stepper: Option<&'a mut dyn Stepper>,
+    stepper: Option<&'a mut (dyn Stepper + 's)>,
     system: &'a mut System,
     observers: &'a mut [&'o mut dyn Observer],
     watch: DivergenceMonitor,
@@ -21,48 +21,34 @@ pub(crate) struct Execution<'a, 'o> {
     evaluations_before: u64,
 }
 
-impl<'a, 'o> Execution<'a, 'o> {
+impl<'a, 's, 'o> Execution<'a, 's, 'o> {
     pub(crate) fn new(
         run: &'a Run,
-        stepper: Option<&'a mut dyn Stepper>,
+        checkpoint: Option<&Checkpoint>,
+        stepper: Option<&'a mut (dyn Stepper + 's)>,
         system: &'a mut System,
         observers: &'a mut [&'o mut dyn Observer],
     ) -> Self {
-        let start = Snapshot::new(run.first_step, system, 0.0);
-        let checkpoint = Checkpoint {
-            evaluations_before: start.force_evaluations,
-            last_good: start.clone(),
-            here: start,
+        if let Some(checkpoint) = checkpoint {
+            checkpoint.here.restore(system);
+        }
+        let start = || {
+            let here = Snapshot::new(run.first_step, system, 0.0);
+            Checkpoint {
+                evaluations_before: here.force_evaluations,
+                last_good: here.clone(),
+                here,
+            }
         };
-        Self::standing(run, &checkpoint, stepper, system, observers)
-    }
-
-    pub(crate) fn resume(
-        run: &'a Run,
-        checkpoint: &Checkpoint,
-        stepper: Option<&'a mut dyn Stepper>,
-        system: &'a mut System,
-        observers: &'a mut [&'o mut dyn Observer],
-    ) -> Self {
-        checkpoint.here.restore(system);
-        Self::standing(run, checkpoint, stepper, system, observers)
-    }
-
-    fn standing(
-        run: &'a Run,
-        checkpoint: &Checkpoint,
-        stepper: Option<&'a mut dyn Stepper>,
-        system: &'a mut System,
-        observers: &'a mut [&'o mut dyn Observer],
-    ) -> Self {
+        let checkpoint = checkpoint.cloned().unwrap_or_else(start);
         let here = &checkpoint.here;
         Self {
             run,
             stepper,
             watch: DivergenceMonitor::new(run.h, run.kinetic_limit, here.largest_kinetic),
             step: here.step,
-            last_good: checkpoint.last_good.clone(),
             sound: (here.step, system.state().clone()),
+            last_good: checkpoint.last_good,
             evaluations_before: checkpoint.evaluations_before,
             system,
             observers,

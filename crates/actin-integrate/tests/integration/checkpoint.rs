@@ -139,7 +139,7 @@ proptest! {
             // A new system, as in another process.
             system = build(kind);
             witness.leave = next.map(|next| witness.pauses + next);
-            outcome = run.resume(&checkpoint, &mut system, &mut [&mut witness]).unwrap();
+            outcome = run.execute_from(Some(&checkpoint), None, &mut system, &mut [&mut witness]).unwrap();
         }
         prop_assert_eq!(system.state(), whole.state());
         prop_assert_eq!(outcome, expected);
@@ -150,7 +150,7 @@ proptest! {
         let end = one.ended.unwrap();
         prop_assert_eq!(Some(&end), witness.ended.as_ref());
         let (mut system, mut witness) = (build(kind), Witness::default());
-        let outcome = run.resume(&end, &mut system, &mut [&mut witness]).unwrap();
+        let outcome = run.execute_from(Some(&end), None, &mut system, &mut [&mut witness]).unwrap();
         prop_assert_eq!(system.state(), whole.state());
         prop_assert_eq!(outcome, expected);
         prop_assert!(witness.seen.is_empty());

@@ -121,7 +121,8 @@ fn a_resumed_run_fails_with_the_same_message() {
     let places = keeper.pauses.iter().chain([&last_good]);
     let again = |place: &Checkpoint| -> RunFailure {
         let mut system = heated(1450, 1e6);
-        run.resume(place, &mut system, &mut []).unwrap_err()
+        run.execute_from(Some(place), None, &mut system, &mut [])
+            .unwrap_err()
     };
     assert!(keeper.pauses.iter().any(|pause| pause.here.step == 1900));
     for place in places {

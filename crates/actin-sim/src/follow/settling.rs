@@ -111,7 +111,7 @@ impl Transfer<'_> {
         let layout = Layout::new(system.state(), Some(&order(self.to)))?;
         let mut stepper = estimate.stepper((self.to, &own), system, layout)?;
         let run = Run::from_duration(&POSITION_VERLET, step, time)?;
-        run.execute_steps(&mut stepper, system, &mut [])?;
+        run.execute_from(None, Some(&mut stepper), system, &mut [])?;
         Ok(())
     }
 

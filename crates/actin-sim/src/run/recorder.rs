@@ -162,14 +162,7 @@ impl<'a> Recorder<'a> {
             state.set_motion(&checkpoint.here.motion);
             self.hinges.begin(&state);
         }
-        match (checkpoint, stepper) {
-            (None, None) => run.execute(system, &mut [self]),
-            (None, Some(stepper)) => run.execute_steps(stepper, system, &mut [self]),
-            (Some(checkpoint), None) => run.resume(&checkpoint, system, &mut [self]),
-            (Some(checkpoint), Some(stepper)) => {
-                run.resume_steps(&checkpoint, stepper, system, &mut [self])
-            }
-        }
+        run.execute_from(checkpoint.as_ref(), stepper, system, &mut [self])
     }
 
     fn events_until(&self, step: u64) -> Vec<LinkerEvent> {
