@@ -97,11 +97,6 @@ impl Cylinder {
         })
     }
 
-    /// Length (nm).
-    pub fn length(&self) -> f64 {
-        self.length
-    }
-
     /// Friction along the axis, per length (pN ns/nm^2).
     pub fn along(&self) -> f64 {
         let p = self.ratio();
@@ -176,7 +171,7 @@ mod tests {
         let logarithm = 1e8_f64.ln();
         assert!((c.across() * (logarithm + 0.839) / (4.0 * PI) - 1.0).abs() < 1e-7);
         assert!((c.along() * (logarithm - 0.207) / (2.0 * PI) - 1.0).abs() < 1e-7);
-        let turning = c.end_over_end() / c.length().powi(3);
+        let turning = c.end_over_end() / c.length.powi(3);
         assert!((turning * 3.0 * (logarithm - 0.662) / PI - 1.0).abs() < 1e-7);
     }
 

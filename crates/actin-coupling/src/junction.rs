@@ -152,11 +152,6 @@ impl Junction {
         self
     }
 
-    /// Indices of the junction frames.
-    pub fn frames(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
-        self.bonds.iter().map(Bond::junction)
-    }
-
     /// Bending elements between the end segment and the junction frames. The mean curvature of the
     /// end segment includes them.
     pub fn joined_elements(&self) -> Vec<JoinedElement> {

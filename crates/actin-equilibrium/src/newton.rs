@@ -276,23 +276,22 @@ impl Run<'_> {
             }
         };
         if result.is_err() && descent.end_excursion() {
-            self.solver
-                .assemble(self.interactions, &descent.state, &descent.here.loads);
-            self.measure(&descent);
+            self.assemble(&descent);
         }
         *state = descent.state;
         result
     }
 
-    fn measure(&mut self, descent: &Descent) {
+    /// Assembles the stiffness and measures the residual.
+    fn assemble(&mut self, descent: &Descent) {
+        self.solver
+            .assemble(self.interactions, &descent.state, &descent.here.loads);
         let (residual, floor) = self.solver.residual_and_floor(&descent.state);
         (self.residual, self.floor) = (residual, floor);
     }
 
     fn step(&mut self, descent: &mut Descent) -> Result<Option<Convergence>, SolveError> {
-        self.solver
-            .assemble(self.interactions, &descent.state, &descent.here.loads);
-        self.measure(descent);
+        self.assemble(descent);
         if let Some(ending) = self.ending(descent)? {
             return Ok(Some(ending));
         }
@@ -330,9 +329,7 @@ impl Run<'_> {
 
     /// Termination where no step is accepted.
     fn stop_at_best(&mut self, descent: &mut Descent) -> Result<Option<Convergence>, SolveError> {
-        self.solver
-            .assemble(self.interactions, &descent.state, &descent.here.loads);
-        self.measure(descent);
+        self.assemble(descent);
         let cause = if descent.is_blocked() {
             SolveError::PassesThrough
         } else {

@@ -87,6 +87,4 @@ pub struct RunFailure {
     pub term: &'static str,
     /// Step of the restored state.
     pub last_good_step: u64,
-    /// Time of the restored state (ns).
-    pub last_good_time: f64,
 }

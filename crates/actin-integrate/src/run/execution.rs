@@ -301,7 +301,6 @@ impl<'a, 's, 'o> Execution<'a, 's, 'o> {
             body,
             term,
             last_good_step: self.last_good.step,
-            last_good_time: self.run.time(self.last_good.step),
         }
     }
 

@@ -2,7 +2,6 @@
 
 use super::super::pairs::Derivatives;
 use super::super::{STRAINS, SixMatrix, SixVector};
-use super::potential::Potential;
 use nalgebra::{DMatrix, DVector};
 
 /// Directions of the derivatives with respect to the strains, one per column.
@@ -22,7 +21,6 @@ pub(super) struct Sums {
     strain: SixVector,
     strain_twice: SixMatrix,
     virial: f64,
-    turn: f64,
     hessians: f64,
     hessian: SixMatrix,
     energy: f64,
@@ -36,10 +34,9 @@ pub(super) struct Means {
     pub(super) slope: SixVector,
     pub(super) plain: SixVector,
     pub(super) curvature: SixMatrix,
-    /// Energy of the cell, `x . dE/dx`, mean square rotation.
+    /// Energy of the cell and `x . dE/dx`.
     pub(super) energy: f64,
     pub(super) virial: f64,
-    pub(super) turn: f64,
 }
 
 impl Sums {
@@ -48,9 +45,8 @@ impl Sums {
         place: &DVector<f64>,
         gradient: &DVector<f64>,
         moves: &StrainDirections,
-        potential: &Potential<'_>,
+        coordinates: usize,
     ) {
-        let coordinates = potential.cell.coordinates();
         let slope = moves.along.tr_mul(gradient);
         let slope: SixVector = slope.fixed_rows::<STRAINS>(0).into();
         let shift = place - &moves.origin;
@@ -62,9 +58,6 @@ impl Sums {
         self.strain += strain;
         self.strain_twice += strain * strain.transpose();
         self.virial += shift.dot(gradient);
-        let turns = potential.cell.turns(place);
-        let turns: f64 = turns.map(|(_, turn)| turn.norm_squared()).sum();
-        self.turn += turns / potential.cell.monomers() as f64;
     }
 
     pub(super) fn add_derivatives(&mut self, of: &Derivatives, moves: &StrainDirections) {
@@ -82,7 +75,6 @@ impl Sums {
         self.strain += other.strain * share;
         self.strain_twice += other.strain_twice * share;
         self.virial += share * other.virial;
-        self.turn += share * other.turn;
         self.hessians += share * other.hessians;
         self.hessian += other.hessian * share;
         self.energy += share * other.energy;
@@ -102,7 +94,6 @@ impl Sums {
             curvature: self.hessian / self.hessians - of_slope / kt,
             energy: self.energy / self.hessians,
             virial: self.virial / self.count,
-            turn: self.turn / self.count,
         }
     }
 }
@@ -133,7 +124,6 @@ pub(super) fn with_errors(blocks: &[Sums], kt: f64) -> (Means, Means) {
         curvature: SixMatrix::from_fn(|i, j| error(&|m| m.curvature[(i, j)])),
         energy: error(&|m| m.energy),
         virial: error(&|m| m.virial),
-        turn: error(&|m| m.turn),
     };
     (mean, errors)
 }

@@ -66,8 +66,6 @@ pub struct HeatResponse {
     /// `<x . dE/dx>` divided by kT and the number of coordinates, with its error. The exact value
     /// is 1.
     pub equipartition: [f64; 2],
-    /// Mean square of the rotation vectors `w` (rad^2).
-    pub mean_square_turn: f64,
     /// Acceptance rate.
     pub acceptance: f64,
     /// Time step, in units in which every mode has frequency 1.
@@ -153,7 +151,7 @@ impl Cell {
         for block in &mut blocks {
             for k in 0..per_block {
                 accepted += chain.advance();
-                block.add(&chain.place, &chain.gradient, &moves, potential);
+                block.add(&chain.place, &chain.gradient, &moves, self.coordinates());
                 if k % APART == 0 {
                     block.add_derivatives(&potential.derivatives(&chain.place), &moves);
                 }
@@ -196,7 +194,6 @@ impl Cell {
             tangent_error: error.curvature * per_length,
             energy: mean.energy * per_length,
             equipartition: [mean.virial / unknowns, error.virial / unknowns],
-            mean_square_turn: mean.turn,
             acceptance: 0.0,
             step: 0.0,
             displacements: origin.rows(0, coordinates).into_owned(),
