@@ -11,6 +11,7 @@ use actin_sim::mechanics::Vector3;
 use std::fs;
 use std::io;
 use std::num::NonZero;
+use std::panic::resume_unwind;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
@@ -86,7 +87,9 @@ impl Film {
         thread::scope(|scope| {
             let all: Vec<_> = (0..threads.min(count)).map(|_| scope.spawn(work)).collect();
             let ended = all.into_iter().map(thread::ScopedJoinHandle::join);
-            ended.into_iter().try_for_each(|one| one.unwrap_or(Ok(())))
+            ended
+                .into_iter()
+                .try_for_each(|one| one.unwrap_or_else(|panic| resume_unwind(panic)))
         })
     }
 
