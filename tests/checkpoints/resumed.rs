@@ -275,7 +275,7 @@ fn crosslinkers_resume_to_the_same_bits() {
         crosslinkers: [
             Crosslinkers(count: 30, stiffness_pn_per_nm: 0.2, rest_length_nm: 10.0, attach_per_ns: 2e-5,
                 bind_per_ns: 4e-5, unbinds: Breaking(rate_per_ns: 5e-6, force_pn: 5.0), radius_nm: 3.5,
-                tilt_pn_nm: 2.0, twist_pn_nm: 2.0, seed: 3),
+                site_spacing_nm: 5.5, tilt_pn_nm: 2.0, twist_pn_nm: 2.0, seed: 3),
             Crosslinkers(count: 20, stiffness_pn_per_nm: 0.2, attach_per_ns: 2e-5, bind_per_ns: 1e-5,
                 unbinds: Breaking(rate_per_ns: 1e-6),
                 steps: Stepping(step_nm: 5.5, rate_per_ns: 5e-6, stall_pn: 4.0), seed: 4),

@@ -191,7 +191,7 @@ impl Kinetics {
         state.controls[self.booked]
     }
 
-    /// Returns the state with all linkers bound, which is the stiffest. Roaming linkers are distributed
+    /// Returns the state with all linkers bound, in which their springs are stiffest. Roaming linkers are distributed
     /// over all sites.
     pub fn all_bound(&self, state: &State) -> State {
         let mut bound = state.clone();

@@ -21,8 +21,8 @@ const SPRING: usize = 4;
 /// ```
 ///
 /// `d` is the vector from the site to the other end (nm, lab frame). `k` is the stiffness (pN/nm),
-/// `L` the rest length (nm) and `F` the force on the site (pN, lab frame). Loads are the negative
-/// gradient of `E`.
+/// `L` the rest length (nm) and `F` the force on the site (pN, lab frame). [`LinkerAngles`] add their energy. Loads are
+/// the negative gradient of the sum.
 ///
 /// At `d = 0` with a positive rest length the stiffness is negative in every direction, see
 /// [`Hooke`]. This state is not a minimum.

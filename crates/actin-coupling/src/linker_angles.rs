@@ -52,7 +52,7 @@ pub(crate) struct AnglesAt<'a> {
     /// Unit vector along the linker (lab frame).
     f: Vector3,
     /// Projection across the linker.
-    across: Matrix3,
+    projection: Matrix3,
     /// Axes of both frames.
     q: [Matrix3; 2],
 }
@@ -123,8 +123,10 @@ impl LinkerAngles {
     pub(crate) fn at<'a>(&self, ends: &'a LinkerEnds, state: &'a State) -> Option<AnglesAt<'a>> {
         let sites = sites(ends)?;
         let d = ends.reach(state);
-        let length = d.norm();
-        let f = d / length;
+        // Linkers without length have no direction and no stiffness of tilt.
+        let (f, length) = d
+            .try_normalize(0.0)
+            .map_or((Vector3::zeros(), f64::INFINITY), |f| (f, d.norm()));
         let frames = sites.map(Site::frame);
         let axes = |i| state.frames.orientation.get(i).to_rotation_matrix();
         Some(AnglesAt {
@@ -135,7 +137,7 @@ impl LinkerAngles {
             rest: self.rest.directions(sites),
             length,
             f,
-            across: Matrix3::identity() - f * f.transpose(),
+            projection: Matrix3::identity() - f * f.transpose(),
             q: frames.map(|i| axes(i).into_inner()),
         })
     }
@@ -213,7 +215,7 @@ impl AnglesAt<'_> {
         let [a, b] = self.q;
         let [first, second, beside] = self.seen();
         let zero = Matrix3::zeros();
-        let by_vector = |q: Matrix3| q.transpose() * self.across / self.length;
+        let by_vector = |q: Matrix3| q.transpose() * self.projection / self.length;
         let turned = -(a.transpose() * b * self.rest.across[1].cross_matrix());
         [
             [by_vector(a), first.cross_matrix(), zero],
@@ -245,11 +247,11 @@ impl AnglesAt<'_> {
         for (k, q) in [a, b].into_iter().enumerate() {
             let c = stresses[k];
             let g = q * c;
-            let beside = self.across * g;
+            let beside = self.projection * g;
             let outer = self.f * beside.transpose();
-            let along = self.across * g.dot(&self.f) + outer + outer.transpose();
+            let along = self.projection * g.dot(&self.f) + outer + outer.transpose();
             second.0[0][0] -= along / (self.length * self.length);
-            second.0[0][k + 1] -= self.across * q * c.cross_matrix() / self.length;
+            second.0[0][k + 1] -= self.projection * q * c.cross_matrix() / self.length;
             second.0[k + 1][k + 1] += turning(c, seen[k]);
         }
         let (c, w) = (stresses[2], self.rest.across[1]);

@@ -136,10 +136,13 @@ impl Site {
         })
     }
 
-    /// Changes the normal (unit vector, body frame).
+    /// Changes the normal to the direction of a vector that is not zero (body frame).
     #[must_use]
     pub fn with_normal(self, normal: Vector3) -> Self {
-        Self { normal, ..self }
+        Self {
+            normal: normal.normalize(),
+            ..self
+        }
     }
 
     /// Direction away from the axis of the filament (unit vector, body frame).

@@ -54,7 +54,8 @@ pub(crate) struct Crosslinkers {
     #[serde(default)]
     pub radius_nm: f64,
     /// Stiffness `k` against tilt at both ends: the energy of each end is `k (1 - cos a)` for the angle `a` between the
-    /// crosslinker and the normal of the filament at the site; at least 0. Requires `radius_nm` and `rest_length_nm`.
+    /// crosslinker and the normal of the filament at the site; at least 0. Requires `radius_nm`, `rest_length_nm`, and
+    /// `site_spacing_nm` or `steps`: at the default distance, most sites of a filament face the same side.
     #[serde(default)]
     pub tilt_pn_nm: f64,
     /// Stiffness `k` against twist: the energy is `k (1 - cos b)` for the angle `b` between the directions of both
@@ -182,6 +183,10 @@ impl Crosslinkers {
                  {MOST_SITES:.0}; change site_spacing_nm or the length of steps"
             );
             return Err(SceneProblem::new(key("site_spacing_nm"), spacing, rule));
+        }
+        if self.tilt_pn_nm > 0.0 && self.site_spacing_nm.is_none() && self.steps.is_none() {
+            let rule = "requires site_spacing_nm, such as 5.5: most sites at the default distance face the same side";
+            return Err(SceneProblem::new(key("tilt_pn_nm"), self.tilt_pn_nm, rule));
         }
         if let (Some(spacing), Some(_)) = (self.site_spacing_nm, self.steps) {
             let rule = "the steps set the distance of sites: omit this key or steps";

@@ -43,7 +43,7 @@ pub struct Kinetics {
     pub roams: Option<Roaming>,
 }
 
-/// Linker with two hands that bind to free sites on the axes of all filaments.
+/// Linker with two hands that bind to free sites of all filaments.
 ///
 /// A free linker attaches one hand to a random site. The second hand binds to sites of other filaments within reach.
 /// The rate per site is `k exp(-U/kT)` with the rate `k` of `forms` and the energy `U` of the linker. Without mean load,

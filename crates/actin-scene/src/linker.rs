@@ -185,9 +185,12 @@ fn check_angular(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
             return refused(one, rule);
         }
     }
-    let is_directed = linker.radius_nm > 0.0 && linker.rest_length_nm > 0.0;
-    if linker.roams() && tilt.1 > 0.0 && !is_directed {
-        let rule = "requires positive radius_nm and rest_length_nm: crosslinkers are normal to filaments at their sites";
+    if tilt.1 > 0.0 && linker.roams() && linker.radius_nm <= 0.0 {
+        let rule = "requires a positive radius_nm: sites on the axis have no normal";
+        return refused(tilt, rule);
+    }
+    if tilt.1 > 0.0 && linker.kinetics.is_some() && linker.rest_length_nm <= 0.0 {
+        let rule = "requires a positive rest_length_nm: rates depend on the force along the linker";
         return refused(tilt, rule);
     }
     Ok(())

@@ -2,13 +2,14 @@
 
 use super::problem::Problems;
 use super::rules::show;
-use super::{Factor, Flow, Linker, Repulsion, Scene, SceneProblem, Task};
+use super::{Factor, Flow, Linker, Repulsion, Scene, SceneProblem, Task, unit_vector};
 use actin_mechanics::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Box that is repeated along x, y and z. Linkers and repulsion act across its faces: filaments are continuous, a
-/// linker has the `image` of its second end, and filaments repel all images, including their own.
+/// linker has the `image` of its second end, and filaments repel all images, including their own. Two facing planes of
+/// `repulsion`, normal to an edge, make a layer; volumes are then those between the walls.
 ///
 /// A shear strain displaces the images along x in proportion to their distance along z, and so does the fluid of
 /// `Brownian`.
@@ -63,11 +64,6 @@ impl PeriodicBox {
             "must be at least twice the contact distance of filaments, {contact:?} nm, which repel their images"
         );
         Err(SceneProblem::new("periodic.size_nm", edge, rule))
-    }
-
-    /// Returns the volume (nm^3).
-    pub fn volume(&self) -> f64 {
-        self.size_nm.iter().product()
     }
 
     /// Returns the image in which a position (nm) lies, and the position in the box without strain, from 0 to
@@ -170,60 +166,81 @@ fn check_flow(scene: &Scene) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// Allows the walls of a layer: pairs of planes that face each other, normal to an edge of the box that no linker
-/// passes.
+/// Allows the walls of a layer: pairs of planes that face each other, normal to an edge of the box that nothing passes.
 fn check_walls(scene: &Scene, periodic: &PeriodicBox) -> Result<(), SceneProblem> {
     let Some(repulsion) = &scene.repulsion else {
         return Ok(());
     };
-    let refused = || {
-        let rule = "has walls that are not repeated: in a periodic box, only pairs of planes that face each other are \
-                    allowed, normal to y or z, or to x without strain";
-        SceneProblem::new("repulsion", "", rule)
-    };
-    let normals: Vec<Vector3> = (repulsion.planes.iter())
-        .map(|plane| Vector3::from(plane.normal).normalize())
-        .collect();
-    let axes = if periodic.strain == 0.0 { 0..3 } else { 1..3 };
-    let is_along = |normal: &Vector3| axes.clone().any(|axis| normal[axis].abs() >= 1.0);
-    if repulsion.has_closed_walls() || !normals.iter().all(is_along) {
-        return Err(refused());
+    let refused =
+        |key: &str, rule: &str| Err(SceneProblem::new(format!("repulsion.{key}"), "", rule));
+    let closed = [
+        ("spheres", repulsion.spheres.is_empty()),
+        ("cylinders", repulsion.cylinders.is_empty()),
+        ("cuboids", repulsion.cuboids.is_empty()),
+    ];
+    if let Some((key, _)) = closed.into_iter().find(|(_, is_empty)| !is_empty) {
+        let rule =
+            "are not repeated: in a periodic box, only planes that face each other are allowed";
+        return refused(key, rule);
+    }
+    // A strain displaces images along x and z, which walls normal to these axes separate.
+    let axes = if periodic.strain == 0.0 { 0..3 } else { 1..2 };
+    for (i, plane) in repulsion.planes.iter().enumerate() {
+        let normal = unit_vector(plane.normal);
+        if !axes.clone().any(|axis| normal[axis].abs() >= 1.0) {
+            let rule = "in a periodic box, must be along y, or along x or z without strain";
+            return refused(&format!("planes[{i}].normal"), rule);
+        }
     }
     for axis in axes {
-        let facing = |sign: f64| {
-            let planes = normals.iter().zip(&repulsion.planes);
-            planes.filter_map(move |(normal, plane)| {
-                (sign * normal[axis] > 0.5).then_some(plane.at_nm[axis])
-            })
-        };
-        let low = facing(1.0).fold(f64::NEG_INFINITY, f64::max);
-        let high = facing(-1.0).fold(f64::INFINITY, f64::min);
+        let [low, high] = repulsion.layer(axis);
         match (low.is_finite(), high.is_finite()) {
             (true, true) => check_layer(scene, axis, (high - low, periodic.size_nm[axis]))?,
             (false, false) => {}
-            _ => return Err(refused()),
+            _ => {
+                let rule =
+                    "in a periodic box, each plane requires another one with the opposite normal";
+                return refused("planes", rule);
+            }
         }
     }
     Ok(())
 }
 
-/// Requires that no linker passes through the walls normal to an edge (nm) of the box.
+/// Requires that no linker or contact passes through the walls normal to an edge (nm) of the box.
 fn check_layer(
     scene: &Scene,
     axis: usize,
     (distance, edge): (f64, f64),
 ) -> Result<(), SceneProblem> {
     let refused = |rule: &str| SceneProblem::new("periodic.size_nm", edge, rule);
-    let least = distance + longest_reach(scene);
-    if edge < least {
-        let rule = "the distance of the walls normal to this edge and the reach of crosslinkers";
-        return Err(refused(&format!("must be at least {least:?}, {rule}")));
+    let contact = scene.repulsion.as_ref().map_or(0.0, Repulsion::contact_nm);
+    let reach = longest_reach(scene).max(contact);
+    if edge < distance + reach {
+        let rule = format!(
+            "must exceed the distance of the walls normal to this edge, {distance:?}, by the reach of contacts and \
+             crosslinkers, {reach:.2}"
+        );
+        return Err(refused(&rule));
     }
     if scene.linkers.iter().any(|one| one.image[axis] != 0) {
-        let rule = "is too short: linkers to images pass through the walls normal to this edge";
+        let rule = "linkers pass through the walls normal to this edge: increase it to their distance and the reach of \
+                    linkers";
         return Err(refused(rule));
     }
     Ok(())
+}
+
+impl Scene {
+    /// Volume (nm^3) of the periodic box, or of the layer between its walls; `None` without a box.
+    pub fn periodic_volume(&self) -> Option<f64> {
+        let edges = self.periodic.as_ref()?.size_nm.into_iter().enumerate();
+        let thickness = |(axis, edge): (usize, f64)| {
+            let walls = self.repulsion.as_ref().map(|one| one.layer(axis));
+            walls.map_or(edge, |[low, high]| edge.min(high - low))
+        };
+        Some(edges.map(thickness).product())
+    }
 }
 
 /// Largest distance (nm) of two sites that a crosslinker of a pool joins.
@@ -298,27 +315,18 @@ mod tests {
         };
         let z = |at, sign| plane([7.0, 8.0, at], 2, sign);
         let layer = z(50.0, 1.0) + &z(150.0, -1.0);
-        assert_eq!(refused(&layer, 0.2, 120.0), None);
+        assert_eq!(refused(&layer, 0.0, 120.0), None);
+        let along_y = plane([-200.0; 3], 1, 1.0) + &plane([500.0; 3], 1, -1.0);
+        let message = refused(&along_y, 0.2, 300.0);
+        assert!(message.is_some_and(|text| {
+            text.contains("700.0, by the reach of contacts and crosslinkers, 20.00")
+        }));
+        let oblique = layer.clone() + "Plane(at_nm: (0.0, 0.0, 0.0), normal: (0.0, 0.1, 1.0))";
         for (planes, strain, height, what) in [
-            (
-                layer.clone(),
-                0.2,
-                119.0,
-                "must be at least 120.0, the distance",
-            ),
-            (z(50.0, 1.0), 0.0, 300.0, "only pairs of planes"),
-            (
-                plane([-200.0; 3], 0, 1.0) + &plane([500.0; 3], 0, -1.0),
-                0.2,
-                300.0,
-                "normal to y or z",
-            ),
-            (
-                layer + "Plane(at_nm: (0.0, 0.0, 0.0), normal: (0.0, 0.1, 1.0))",
-                0.0,
-                300.0,
-                "only pairs",
-            ),
+            (layer.clone(), 0.0, 119.0, "must exceed the distance"),
+            (layer, 0.2, 120.0, "or along x or z without strain"),
+            (z(50.0, 1.0), 0.0, 300.0, "with the opposite normal"),
+            (oblique, 0.0, 300.0, "planes[2].normal"),
         ] {
             let message = refused(&planes, strain, height);
             assert!(message.is_some_and(|text| text.contains(what)), "{planes}");

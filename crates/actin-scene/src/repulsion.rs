@@ -2,7 +2,7 @@
 
 use super::problem::Problems;
 use super::rules::show;
-use super::{Scene, SceneProblem};
+use super::{Scene, SceneProblem, unit_vector};
 use actin_coupling::repulsion::{RepulsionError, Side, Wall};
 use actin_mechanics::Vector3;
 use schemars::JsonSchema;
@@ -117,12 +117,10 @@ impl Default for Repulsion {
 
 impl Repulsion {
     pub(super) fn has_walls(&self) -> bool {
-        !self.planes.is_empty() || self.has_closed_walls()
-    }
-
-    /// Returns whether there are walls other than planes.
-    pub(super) fn has_closed_walls(&self) -> bool {
-        !(self.spheres.is_empty() && self.cylinders.is_empty() && self.cuboids.is_empty())
+        !(self.planes.is_empty()
+            && self.spheres.is_empty()
+            && self.cylinders.is_empty()
+            && self.cuboids.is_empty())
     }
 
     /// Returns all walls in the order of shapes and indices. A cuboid has six.
@@ -139,6 +137,19 @@ impl Repulsion {
             .chain(cylinders)
             .chain(cuboids)
             .collect()
+    }
+
+    /// Places (nm) of the planes normal to an axis between which filaments are; infinite without planes.
+    pub(super) fn layer(&self, axis: usize) -> [f64; 2] {
+        let facing = |sign: f64| {
+            let planes = self.planes.iter();
+            let planes = planes.filter(move |plane| sign * unit_vector(plane.normal)[axis] > 0.5);
+            planes.map(move |plane| plane.at_nm[axis])
+        };
+        [
+            facing(1.0).fold(f64::NEG_INFINITY, f64::max),
+            facing(-1.0).fold(f64::INFINITY, f64::min),
+        ]
     }
 
     /// Distance (nm) of axes below which filaments repel each other, or 0.

@@ -268,7 +268,7 @@ impl Builder<'_> {
         let state = &self.stock.state;
         let arm = strand.place(place) - state.points.position.get(point);
         let q = state.frames.orientation.get(frame);
-        let normal = (strand.place(place + normal) - strand.place(place)).normalize();
+        let normal = strand.place(place + normal) - strand.place(place);
         let site = Site::on_monomer(point, frame, q.inverse_transform_vector(&arm))?;
         Ok(site.with_normal(q.inverse_transform_vector(&normal)))
     }

@@ -422,7 +422,8 @@ class Crosslinkers(Part):
     distance of sites. Default: None.
     - `stiffness_pn_per_nm`: Stiffness; positive.
     - `tilt_pn_nm`: Stiffness `k` against tilt at both ends: the energy of each end is `k (1 - cos a)` for the angle `a` between the
-    crosslinker and the normal of the filament at the site; at least 0. Requires `radius_nm` and `rest_length_nm`. Default: 0.0.
+    crosslinker and the normal of the filament at the site; at least 0. Requires `radius_nm`, `rest_length_nm`, and
+    `site_spacing_nm` or `steps`: at the default distance, most sites of a filament face the same side. Default: 0.0.
     - `twist_pn_nm`: Stiffness `k` against twist: the energy is `k (1 - cos b)` for the angle `b` between the directions of both
     filaments; at least 0. Antiparallel filaments have the energy `2 k`. Default: 0.0.
     - `unbinds`: Unbinding of each bound hand.
@@ -1120,7 +1121,8 @@ class Output(Part):
 
 class PeriodicBox(Part):
     """Box that is repeated along x, y and z. Linkers and repulsion act across its faces: filaments are continuous, a
-    linker has the `image` of its second end, and filaments repel all images, including their own.
+    linker has the `image` of its second end, and filaments repel all images, including their own. Two facing planes of
+    `repulsion`, normal to an edge, make a layer; volumes are then those between the walls.
 
     A shear strain displaces the images along x in proportion to their distance along z, and so does the fluid of
     `Brownian`.
@@ -1300,7 +1302,7 @@ class Rigidities(Part):
     ) -> None: ...
 
 class Roaming(Part):
-    """Linker with two hands that bind to free sites on the axes of all filaments.
+    """Linker with two hands that bind to free sites of all filaments.
 
     A free linker attaches one hand to a random site. The second hand binds to sites of other filaments within reach.
     The rate per site is `k exp(-U/kT)` with the rate `k` of `forms` and the energy `U` of the linker. Without mean load,

@@ -2,7 +2,7 @@
 
 use super::{Checked, RecordTimes, View};
 use crate::loads::loads_of;
-use crate::scene::{Factor, PeriodicBox, Scene, Setting, lowest_joined};
+use crate::scene::{Factor, Scene, Setting, lowest_joined};
 use crate::{Assembly, Part};
 use actin_mechanics::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -140,7 +140,7 @@ pub(super) fn check(scene: &Scene, times: Option<&RecordTimes>) -> Checked {
 /// Properties of a network of filaments.
 pub(super) fn values(view: &View<'_>) -> Vec<f64> {
     let scene = &view.assembly.scene;
-    let volume = scene.periodic.as_ref().map(PeriodicBox::volume);
+    let volume = scene.periodic_volume();
     let edges = Edges::new(view);
     let linkers = Linkers::new(view);
     let sizes = cluster_sizes(view.assembly.filaments.len(), &linkers.joined);

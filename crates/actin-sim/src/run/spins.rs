@@ -19,15 +19,18 @@ pub(super) fn longest_step(
     thermal_energy: f64,
 ) -> Result<f64, SceneProblem> {
     let mut resisted = are_coupled(assembly);
-    let linkers = assembly.scene.linkers.iter();
-    for linker in linkers.filter(|linker| linker.angular().iter().any(|(_, k)| *k > 0.0)) {
+    for linker in &assembly.scene.linkers {
+        let is_stiff = linker.angular().iter().any(|(_, k)| *k > 0.0);
         if linker.roams() {
-            resisted.fill(true);
-            break;
-        }
-        resisted[linker.filament] = true;
-        if let Some(other) = &linker.to {
-            resisted[other.filament] = true;
+            // The twist of these depends on directions of filaments alone.
+            if linker.tilt_pn_nm > 0.0 {
+                resisted.fill(true);
+            }
+        } else if is_stiff {
+            resisted[linker.filament] = true;
+            if let Some(other) = &linker.to {
+                resisted[other.filament] = true;
+            }
         }
     }
     let mut longest = f64::INFINITY;
