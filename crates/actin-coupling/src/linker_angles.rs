@@ -1,5 +1,5 @@
 use crate::linker_ends::LinkerEnds;
-use crate::site::ensure;
+use crate::site::{curvature_of_product, ensure};
 use crate::{LinkerEnd, LinkerError, LinkerKey, Site};
 use actin_mechanics::{Coordinates, Loads, Matrix3, State, Stiffness, Vector3};
 
@@ -240,10 +240,6 @@ impl AnglesAt<'_> {
         let [a, b] = self.q;
         let seen = self.seen();
         let mut second = Second::default();
-        let turning = |c: Vector3, v: Vector3| {
-            let product = c * v.transpose();
-            0.5 * (product + product.transpose()) - Matrix3::from_diagonal_element(product.trace())
-        };
         for (k, q) in [a, b].into_iter().enumerate() {
             let c = stresses[k];
             let g = q * c;
@@ -252,12 +248,12 @@ impl AnglesAt<'_> {
             let along = self.projection * g.dot(&self.f) + outer + outer.transpose();
             second.0[0][0] -= along / (self.length * self.length);
             second.0[0][k + 1] -= self.projection * q * c.cross_matrix() / self.length;
-            second.0[k + 1][k + 1] += turning(c, seen[k]);
+            second.0[k + 1][k + 1] += curvature_of_product(c, seen[k]);
         }
         let (c, w) = (stresses[2], self.rest.across[1]);
         let relative = a.transpose() * b;
-        second.0[1][1] += turning(c, seen[2]);
-        second.0[2][2] += turning(relative.tr_mul(&c), w);
+        second.0[1][1] += curvature_of_product(c, seen[2]);
+        second.0[2][2] += curvature_of_product(relative.tr_mul(&c), w);
         second.0[1][2] -= c.cross_matrix() * relative * w.cross_matrix();
         second
     }

@@ -219,7 +219,12 @@ impl Site {
 /// Second derivative of the work `g . Q b` of a constant vector `g` (lab frame) with respect to the
 /// rotation `Q` of a frame with the arm `b`: `(c b^T + b c^T) / 2 - (c . b) 1` with `c = Q^T g`.
 pub(crate) fn curvature_of_work(q: UnitQuaternion, g: Vector3, arm: Vector3) -> Matrix3 {
-    let product = q.inverse_transform_vector(&g) * arm.transpose();
+    curvature_of_product(q.inverse_transform_vector(&g), arm)
+}
+
+/// Second derivative of `g . Q b` with respect to the rotation `Q` for `c = Q^T g`, see [`curvature_of_work`].
+pub(crate) fn curvature_of_product(c: Vector3, b: Vector3) -> Matrix3 {
+    let product = c * b.transpose();
     0.5 * (product + product.transpose()) - Matrix3::from_diagonal_element(product.trace())
 }
 
