@@ -128,7 +128,7 @@ fn heated(filament: &str, scene: &str, task: &str) -> String {
 }
 
 /// Keys of filament and scene that bend or straighten a rod, and the reason in the warning.
-const BENDS: [(&str, &str, &str); 6] = [
+const BENDS: [(&str, &str, &str); 8] = [
     (
         ")])",
         "clamps: [Clamp(end: Start)], loads: [Force(end: End, force_pn: (0.0, 0.0, 5.0))],",
@@ -154,6 +154,16 @@ const BENDS: [(&str, &str, &str); 6] = [
         ")])",
         "repulsion: Repulsion(planes: [(at_nm: (0.0, 0.0, -9.0), normal: (0.0, 0.0, 1.0))]),",
         "walls repel it",
+    ),
+    (
+        ")])",
+        "clamps: [Clamp(end: Start)], path: [Stage(duration_ns: 0.1, set: [Turn(end: Start, turn_deg: (9.0, 0.0, 0.0))])],",
+        "a clamped end is moved",
+    ),
+    (
+        ", altered: (bend_rigidity_factor: 0.5)), Rod(from_nm: 60.0, to_nm: 100.0)])",
+        "",
+        "its sections differ in rigidity",
     ),
 ];
 

@@ -251,6 +251,14 @@ impl RodMaterial {
         }
     }
 
+    /// Factor of the twisting rigidity of a potential relative to unaltered rods; 1 for other laws.
+    pub(crate) fn twist_factor(&self) -> f64 {
+        match self.kind {
+            Kind::Laws(_) => 1.0,
+            Kind::Potential(law) => law.twist_factor(),
+        }
+    }
+
     /// Energy per length (pN) at a twist (rad/nm) relative to rest, without bending.
     pub(crate) fn twist_energy_density(&self, twist: f64) -> f64 {
         self.bending_energy_density(self.rest_curvature + Vector3::z() * twist)

@@ -2,7 +2,9 @@
 
 use super::problem::Problems;
 use super::rules::{check_index, check_on_filament, show};
-use super::{ClampedEnds, End, Linker, PeriodicBox, Scene, SceneProblem, Section};
+use super::{
+    ClampedEnds, End, Flow, Linker, PeriodicBox, Scene, SceneProblem, Section, Setting, Task,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -148,8 +150,9 @@ pub enum Observable {
     },
     /// Mean cosine of the angle between cross-sections at a given distance, over all such pairs of the
     /// filament: `tangent_correlation[0]_over_20nm`. In a heat bath `summary.json` contains the persistence
-    /// length, `-distance / ln(mean)`. It is omitted if loads, linkers, walls, a second clamp, a `shape` or a
-    /// rest curvature also change the angles.
+    /// length, `-distance / ln(mean)`. It is omitted if more than heat bends the filament, such as loads, linkers,
+    /// walls or a flow, or if its sections are `altered` differently. Monomers turn relative to the axis, which shortens it
+    /// at small distances. From the means `m_a` and `m_b` over two distances `a < b` it is `(b - a) / ln(m_a / m_b)`.
     TangentCorrelation {
         /// Index of the filament.
         #[serde(default)]
@@ -315,21 +318,17 @@ fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
 }
 
 impl Scene {
-    /// Returns a cause other than thermal noise that changes the tangents of a filament, so that their
-    /// correlation does not determine the persistence length.
-    pub fn nonthermal_bending_cause(&self, filament: usize) -> Option<&'static str> {
+    /// Returns the reason why the correlation of tangents does not determine the persistence length of a filament:
+    /// more than heat bends it, or its rigidity is not uniform.
+    pub fn persistence_length_obstacle(&self, filament: usize) -> Option<&'static str> {
         let written = self.filament_at(filament)?;
-        let is_curved = |section: &Section| match section {
-            Section::Rod { altered, .. } => altered
-                .as_ref()
-                .is_some_and(|altered| altered.rest_curvature_per_nm.iter().any(|k| k.abs() > 0.0)),
-            Section::Ellipsoids { .. } => false,
-        };
+        let sections: Vec<_> = written.sections.iter().collect();
         let held = self.clamps.iter().filter(|c| c.filament == filament);
-        let joins = |linker: &Linker| {
-            let to = linker.to.map(|site| site.filament);
-            linker.filament == filament || to == Some(filament)
-        };
+        let mut settings = self.path.iter().flat_map(|stage| &stage.set);
+        let is_strained = self
+            .periodic
+            .as_ref()
+            .is_some_and(|one| one.strain.abs() > 0.0);
         let reasons = [
             (
                 self.loads.iter().any(|load| load.filament() == filament),
@@ -338,14 +337,30 @@ impl Scene {
             (held.count() > 1, "both its ends are held"),
             (written.shape.is_some(), "it has a shape"),
             (
-                written.sections.iter().any(is_curved),
+                sections.iter().any(|section| section.is_curved()),
                 "it is curved at rest",
             ),
-            (self.linkers.iter().any(joins), "linkers hold it"),
+            (
+                self.linkers.iter().any(|linker| linker.may_join(filament)),
+                "linkers hold it",
+            ),
             (self.has_walls(), "walls repel it"),
+            (
+                settings.any(|setting| setting.moves_end_of(filament)),
+                "a clamped end is moved",
+            ),
+            (self.task.has_flow(), "the fluid flows"),
+            (is_strained, "its periodic box is strained"),
+            (
+                !sections
+                    .windows(2)
+                    .all(|pair| pair[0].is_altered_like(pair[1])),
+                "its sections differ in rigidity",
+            ),
         ];
-        let mut true_ones = reasons.into_iter().filter(|(is_so, _)| *is_so);
-        true_ones.next().map(|(_, reason)| reason)
+        reasons
+            .into_iter()
+            .find_map(|(is_so, reason)| is_so.then_some(reason))
     }
 
     /// Returns the initial time (ns) that means exclude: as written, or a fifth of the duration; `None` without
@@ -359,5 +374,41 @@ impl Scene {
 
     fn oscillates(&self) -> bool {
         self.periodic.as_ref().is_some_and(PeriodicBox::oscillates)
+    }
+}
+
+impl Section {
+    fn is_curved(&self) -> bool {
+        let altered = self.altered_rod();
+        altered.is_some_and(|altered| altered.rest_curvature_per_nm.iter().any(|k| k.abs() > 0.0))
+    }
+
+    fn is_altered_like(&self, other: &Self) -> bool {
+        (self.altered(), self.altered_rod()) == (other.altered(), other.altered_rod())
+    }
+}
+
+impl Task {
+    fn has_flow(&self) -> bool {
+        matches!(self, Self::Brownian(brownian) if brownian.flow != Flow::AtRest)
+    }
+}
+
+impl Linker {
+    /// Returns whether a hand of the linker is on the filament or may bind to it.
+    fn may_join(&self, filament: usize) -> bool {
+        let roams = self
+            .kinetics
+            .is_some_and(|kinetics| kinetics.roams.is_some());
+        roams || self.filament == filament || self.to.is_some_and(|site| site.filament == filament)
+    }
+}
+
+impl Setting {
+    fn moves_end_of(&self, filament: usize) -> bool {
+        match *self {
+            Self::Shift { filament: one, .. } | Self::Turn { filament: one, .. } => one == filament,
+            Self::LoadFactor { .. } | Self::Shear { .. } | Self::Anchor { .. } => false,
+        }
     }
 }

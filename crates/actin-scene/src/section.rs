@@ -46,9 +46,9 @@ pub struct RodChanges {
     pub law: Option<RodLaw>,
     /// Rigidities; by default the rigidities of the filament. The same laws require the default material.
     pub material: Option<Material>,
-    /// Factor of the bending rigidity; positive. Under the `Homogenised` laws, equal factors multiply the energy; a
-    /// smaller factor of one deformation also moves its nonlinearity to larger strains. In a heat bath, factors multiply
-    /// the free energy of unaltered monomers.
+    /// Factor of the bending rigidity; positive. Under the `Homogenised` laws, equal factors multiply the energy. A
+    /// smaller factor of bending or shear moves its nonlinearity to larger strains. In a heat bath, factors multiply the
+    /// free energy of unaltered monomers.
     pub bend_rigidity_factor: f64,
     /// Factor of the twisting rigidity; positive.
     pub twist_rigidity_factor: f64,
@@ -56,8 +56,8 @@ pub struct RodChanges {
     pub stretch_rigidity_factor: f64,
     /// Factor of the shear rigidity; positive.
     pub shear_rigidity_factor: f64,
-    /// Rest curvature about the transverse axes d1 and d2, which are x and y for a filament along lab z;
-    /// finite. The radius of curvature is greater than the radius of the filament, 3.5 nm.
+    /// Rest curvature about the transverse axes d1 and d2, which are x and y for a filament along lab z, turned by
+    /// the rest twist before; finite. The radius of curvature is greater than the radius of the filament, 3.5 nm.
     pub rest_curvature_per_nm: [f64; 2],
     /// Rest twist; finite. Together with the rest curvature it defines a helix. The rod is built with this
     /// twist. For altered monomers, it is the change of `turn_deg` over `rise_nm`.

@@ -14,8 +14,10 @@ pub(crate) const PATH_LOADS: &str = "path-loads";
 pub(crate) const ROD_LAW: &str = "rod-law";
 /// Filaments overlap with each other or with walls as built.
 pub(crate) const OVERLAP: &str = "overlap";
-/// Tangent correlations have causes besides heat.
+/// Tangent correlations do not determine the persistence length.
 pub(crate) const PERSISTENCE_LENGTH: &str = "no-persistence-length";
+/// Tangent correlations are at distances at which monomers shorten the persistence length.
+pub(crate) const NEAR_CORRELATION: &str = "near-correlation";
 /// Sampled interfaces have a large error.
 pub(crate) const SAMPLED_INTERFACES: &str = "sampled-interfaces";
 /// Chosen sections do not meet the requested error.

@@ -34,7 +34,7 @@ const REACH_NM: f64 = 2.0 * END_SHEAR_NM;
 ///
 /// The first term replaces `l U(k)`. `U` is the twist energy per length, `k` the twist relative to
 /// rest, `l` the rest distance and `a` the additional length. `f` is the element's share of
-/// [`FIRM`], `c` is [`FIRM_TWIST`]. The mean curvature of adjacent segments includes all of `k`.
+/// [`FIRM`] times the factor of the twisting rigidity, `c` is [`FIRM_TWIST`]. The mean curvature of adjacent segments includes all of `k`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct EndTwist {
     pub(crate) element: usize,
@@ -91,8 +91,8 @@ impl EndTwist {
 
     /// Energy (pN nm) of the second term with two derivatives, at a twist (rad/nm) relative to
     /// rest.
-    fn firm(&self, beyond: f64) -> [f64; 3] {
-        let share = FIRM * self.added / END_TWIST_NM;
+    fn firm(&self, material: &RodMaterial, beyond: f64) -> [f64; 3] {
+        let share = FIRM * material.twist_factor() * self.added / END_TWIST_NM;
         let root = (beyond / FIRM_TWIST).hypot(1.0);
         [
             share * FIRM_TWIST * FIRM_TWIST * (root - 1.0),
@@ -119,7 +119,7 @@ impl EndTwist {
     pub(crate) fn energy(&self, material: &RodMaterial, state: &State) -> f64 {
         let beyond = self.beyond(material, self.turn(state));
         let energy = |twist| material.twist_energy_density(twist);
-        let [firm, ..] = self.firm(beyond);
+        let [firm, ..] = self.firm(material, beyond);
         let length = self.rest_distance + self.added;
         length * energy(beyond * self.factor()) - self.rest_distance * energy(beyond) + firm
     }
@@ -127,14 +127,14 @@ impl EndTwist {
     /// Correction to the torque of a regular element (pN nm).
     pub(crate) fn couple(&self, material: &RodMaterial, beyond: f64) -> f64 {
         let couple = |twist| material.twist_couple(twist);
-        let [_, firm, _] = self.firm(beyond);
+        let [_, firm, _] = self.firm(material, beyond);
         couple(beyond * self.factor()) - couple(beyond) + firm / self.rest_distance
     }
 
     /// Derivative of the torque correction (pN nm^2).
     pub(crate) fn tangent(&self, material: &RodMaterial, beyond: f64) -> f64 {
         let tangent = |twist| material.twist_tangent(twist);
-        let [.., firm] = self.firm(beyond);
+        let [.., firm] = self.firm(material, beyond);
         self.factor() * tangent(beyond * self.factor()) - tangent(beyond)
             + firm / self.rest_distance
     }
@@ -171,7 +171,10 @@ impl EndTwist {
 mod tests {
     use super::*;
     use crate::layout::BOTH;
-    use crate::{EnergyGradient, Homogenised, SegmentCurvature, SegmentLaw, StraightRod, Walls};
+    use crate::{
+        EnergyGradient, Homogenised, RigidityFactors, SegmentCurvature, SegmentLaw, StraightRod,
+        Walls,
+    };
     use actin_mechanics::Interaction;
     use actin_mechanics::testing::loads_of;
 
@@ -206,6 +209,14 @@ mod tests {
     /// Rod of 80 nm between walls with uniform twist, including the additional lengths, and zero
     /// tension.
     fn twisted_between_walls(segments: usize, twist: f64) -> (State, EnergyGradient) {
+        twisted_with(
+            RodMaterial::homogenised(Homogenised::mean_filament()),
+            segments,
+            twist,
+        )
+    }
+
+    fn twisted_with(material: RodMaterial, segments: usize, twist: f64) -> (State, EnergyGradient) {
         let mut state = State::default();
         let rod = StraightRod {
             walls: BOTH,
@@ -229,7 +240,6 @@ mod tests {
             z += layout.segment_lengths()[k] * (1.0 + natural);
             state.points.position.set(i, Vector3::z() * z);
         }
-        let material = RodMaterial::homogenised(Homogenised::mean_filament());
         let law = SegmentLaw::from_material(&material, None).unwrap();
         let rod = EnergyGradient::new(layout, material).with_extension(law, curvature);
         (state, rod)
@@ -260,15 +270,38 @@ mod tests {
         for segments in [1, 4, 40] {
             let (state, rod) = twisted_between_walls(segments, kappa.z);
             let ends = end_twists(rod.layout(), [EndShear::Blocked; 2], [0.0; 2]);
-            let firm = |end: &EndTwist| end.firm(kappa.z / end.factor())[0];
+            let material = RodMaterial::homogenised(law);
+            let firm = |end: &EndTwist| end.firm(&material, kappa.z / end.factor())[0];
             let firm: f64 = ends.iter().map(firm).sum();
             let expected = (80.0 + 2.0 * END_TWIST_NM) * law.joint_energy(kappa) + firm;
             assert!((rod.energy(&state) / expected - 1.0).abs() < 1e-12);
             let wall = rod.layout().bending_chain().start;
             let couple = loads_of(&rod, &state).torque.get(wall).z;
-            let [_, firm, _] = ends[0].firm(kappa.z / ends[0].factor());
+            let [_, firm, _] = ends[0].firm(&material, kappa.z / ends[0].factor());
             let expected = law.joint_couple(kappa).z + firm / ends[0].rest_distance;
             assert!((couple / expected - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn equal_factors_multiply_the_energy_of_rods_between_walls() {
+        let material = RodMaterial::homogenised(Homogenised::mean_filament());
+        let tenth = RigidityFactors {
+            shear: 0.1,
+            stretch: 0.1,
+            bend: 0.1,
+            twist: 0.1,
+        };
+        let softened = material.softened(&tenth).unwrap();
+        for twist in [-0.02, 2e-3] {
+            let energies = [material, softened].map(|material| {
+                let (state, rod) = twisted_with(material, 8, twist);
+                rod.energy(&state)
+            });
+            assert!(
+                (energies[1] / energies[0] - 0.1).abs() < 1e-11,
+                "{energies:?}"
+            );
         }
     }
 }

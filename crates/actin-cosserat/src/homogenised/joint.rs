@@ -30,17 +30,14 @@ impl Homogenised {
     /// Torque (pN nm) and its derivative: all terms of extension and shear vanish at the natural
     /// length.
     pub(super) fn joint_jet(&self, kappa: Vector3) -> (Vector3, Matrix3) {
+        let own_twist = self.twist_jet(kappa.z);
         let scales: Vector3 = self.scales.fixed_rows::<3>(0).into();
         let kappa = kappa.component_mul(&scales);
         let (a, k) = (kappa.xy().norm_squared(), kappa.z);
         let t = bounded_twist(k);
         let by_twist = |term| polynomial(self.coefficients(term), t);
-        let (twist, any_bend) = (by_twist(Term::Twist), self.coefficients(Term::AnyBend)[0]);
-        let mut by_a = [any_bend, 0.0];
-        let mut by_k = [
-            2.0 * twist[0] * k + twist[1] * k * k + self.coefficients(Term::Turn)[0],
-            2.0 * twist[0] + 4.0 * twist[1] * k + twist[2] * k * k,
-        ];
+        let mut by_a = [self.coefficients(Term::AnyBend)[0], 0.0];
+        let mut by_k = [self.coefficients(Term::Turn)[0], 0.0];
         let mut mixed = 0.0;
         let bent = [
             (Term::Bend, bounded_square(a, CURVATURE)),
@@ -59,10 +56,11 @@ impl Homogenised {
         let mut tangent = by_a[1] * gradient * gradient.transpose();
         tangent += with_twist + with_twist.transpose();
         tangent += Matrix3::from_diagonal(&Vector3::new(2.0 * by_a[0], 2.0 * by_a[0], by_k[1]));
-        (
-            couple.component_mul(&scales),
-            tangent.component_mul(&(scales * scales.transpose())),
-        )
+        couple.component_mul_assign(&scales);
+        tangent.component_mul_assign(&(scales * scales.transpose()));
+        couple.z += own_twist[1];
+        tangent[(2, 2)] += own_twist[2];
+        (couple, tangent)
     }
 
     fn unsheared(&self, kappa: Vector3) -> SixVector {

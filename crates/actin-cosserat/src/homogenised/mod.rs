@@ -80,8 +80,10 @@ pub struct Homogenised {
     form: HomogenisedForm,
     coefficients: [Polynomial; Term::ALL.len()],
     range: StrainRange,
-    /// Factors of the strains in the terms; 1 by default, and always for stretch.
+    /// Factors of the strains in all terms but [`Term::Twist`]; 1 by default, and always for stretch.
     scales: SixVector,
+    /// Factor of the twisting rigidity; 1 by default.
+    twist_factor: f64,
     /// Same coefficients, in a form for first derivatives.
     unrolled: Potential,
 }
@@ -197,6 +199,12 @@ impl HomogenisedForm {
     }
 }
 
+/// Terms without [`Term::Twist`].
+fn coupled_terms() -> impl Iterator<Item = Term> {
+    let all = Term::ALL.into_iter();
+    all.filter(|term| *term != Term::Twist)
+}
+
 /// `e`, `a`, `g`, `c`, `kappa_3`.
 fn invariants(s: &SixVector, natural_stretch: f64) -> Invariants {
     [
@@ -259,6 +267,7 @@ impl Homogenised {
         Ok(Self {
             unrolled: Potential::new(&form, &all, [1.0; 3]),
             scales: SixVector::repeat(1.0),
+            twist_factor: 1.0,
             form,
             coefficients: all,
             range: StrainRange::UNBOUNDED,
@@ -268,6 +277,11 @@ impl Homogenised {
     /// Form for vector kernels.
     pub(crate) fn unrolled(&self) -> Potential {
         self.unrolled
+    }
+
+    /// Factor of the twisting rigidity relative to unaltered rods.
+    pub(crate) fn twist_factor(&self) -> f64 {
+        self.twist_factor
     }
 
     /// Form of the law.
@@ -282,12 +296,25 @@ impl Homogenised {
 
     /// Energy per rest length (pN).
     pub fn energy_density(&self, strain: &SixVector) -> f64 {
+        let [twist, ..] = self.twist_jet(strain[2]);
         let strain = &strain.component_mul(&self.scales);
         let values = values(invariants(strain, self.form.natural_stretch(strain[2])));
         let [t, ..] = bounded_twist(strain[2]);
-        Term::ALL.into_iter().fold(0.0, |sum, term| {
+        let coupled = coupled_terms().fold(0.0, |sum, term| {
             sum + term.value(&values) * value_of(self.coefficients(term), t)
-        })
+        });
+        coupled + twist
+    }
+
+    /// Term [`Term::Twist`] with two derivatives.
+    fn twist_jet(&self, twist: f64) -> Jet {
+        let [p, slope, bend] = polynomial(self.coefficients(Term::Twist), bounded_twist(twist));
+        let square = twist * twist;
+        [
+            square * p,
+            2.0 * twist * p + square * slope,
+            2.0 * p + 4.0 * twist * slope + square * bend,
+        ]
     }
 
     /// Torques (pN nm) and forces (pN), the gradient of [`energy_density`](Self::energy_density).
@@ -306,16 +333,17 @@ impl Homogenised {
 
     /// Energy, loads and tangent.
     pub fn jet(&self, strain: &SixVector) -> PotentialJet {
+        let twist = self.twist_jet(strain[2]);
         let strain = &strain.component_mul(&self.scales);
         let natural = self.form.natural_jet(strain[2]);
-        let jet = by_strain(strain, natural, &self.sum(invariants(strain, natural[0])));
-        PotentialJet {
-            loads: jet.loads.component_mul(&self.scales),
-            tangent: jet
-                .tangent
-                .component_mul(&(self.scales * self.scales.transpose())),
-            ..jet
-        }
+        let mut jet = by_strain(strain, natural, &self.sum(invariants(strain, natural[0])));
+        jet.loads.component_mul_assign(&self.scales);
+        jet.tangent
+            .component_mul_assign(&(self.scales * self.scales.transpose()));
+        jet.energy += twist[0];
+        jet.loads[2] += twist[1];
+        jet.tangent[(2, 2)] += twist[2];
+        jet
     }
 
     /// Stretch of the straight rod without force at a twist (rad/nm).
@@ -351,7 +379,7 @@ impl Homogenised {
         let variables = Variables::at(invariants);
         let t = bounded_twist(invariants[BY_TWIST]);
         let mut sum = TermSum::new();
-        for term in Term::ALL {
+        for term in coupled_terms() {
             sum.add(term, polynomial(self.coefficients(term), t), &variables);
         }
         sum.by_invariants(&variables)

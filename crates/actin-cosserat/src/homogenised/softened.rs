@@ -1,44 +1,47 @@
 //! Potentials of altered rods.
 
-use super::{Homogenised, Potential, SixVector, StrainRange};
+use super::{Homogenised, Potential, SixVector, StrainRange, Term};
 use crate::RigidityFactors;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 impl Homogenised {
-    /// Potential of a rod whose rigidities are multiplied by factors `f`:
+    /// Potential of a rod whose rigidities are multiplied by factors `f`, with the term `T` of twist alone:
     ///
     /// ```text
-    /// U(x) = f_stretch W(x_i sqrt(f_i / f_stretch))
+    /// U(x) = f_twist T(x) + f_stretch (W - T)(x_i sqrt(f_i / f_stretch))
     /// ```
     ///
     /// Equal factors multiply the energy, as for softer bonds of the same shape. A smaller factor of one deformation
-    /// also moves its nonlinearity to larger strains.
+    /// moves the nonlinearity of the other terms to larger strains. `T` has no rigidity at rest to speak of, so that
+    /// a scaled twist would divide it by up to the square of the factor.
     pub(crate) fn softened(&'static self, factors: &RigidityFactors) -> &'static Self {
         // Leaked on purpose: see `sampled_filament`.
         static LAWS: Mutex<BTreeMap<(usize, [u64; 4]), &'static Homogenised>> =
             Mutex::new(BTreeMap::new());
+        let bits = [factors.shear, factors.stretch, factors.bend, factors.twist].map(f64::to_bits);
+        let mut laws = LAWS.lock().unwrap_or_else(PoisonError::into_inner);
+        let law = laws.entry((std::ptr::from_ref(self) as usize, bits));
+        law.or_insert_with(|| Box::leak(Box::new(self.with_factors(factors))))
+    }
+
+    fn with_factors(&self, factors: &RigidityFactors) -> Self {
         let RigidityFactors {
             shear,
             stretch,
             bend,
             twist,
         } = *factors;
-        let bits = [shear, stretch, bend, twist].map(f64::to_bits);
-        let mut laws = LAWS.lock().unwrap_or_else(PoisonError::into_inner);
-        let law = laws.entry((std::ptr::from_ref(self) as usize, bits));
-        law.or_insert_with(|| {
-            let scales = [bend, twist, shear].map(|factor| (factor / stretch).sqrt());
-            Box::leak(Box::new(self.scaled(stretch, scales)))
-        })
-    }
-
-    fn scaled(&self, energy: f64, [bend, twist, shear]: [f64; 3]) -> Self {
-        let coefficients = self
+        let twist_factor = twist;
+        let mut coefficients = self
             .coefficients
-            .map(|polynomial| polynomial.map(|coefficient| energy * coefficient));
+            .map(|polynomial| polynomial.map(|coefficient| stretch * coefficient));
+        coefficients[Term::Twist as usize] =
+            self.coefficients[Term::Twist as usize].map(|coefficient| twist * coefficient);
+        let [bend, twist, shear] = [bend, twist, shear].map(|factor| (factor / stretch).sqrt());
         let range = StrainRange {
-            twist: self.range.twist / twist,
+            // The data of the term of twist alone end at the same twist as before.
+            twist: self.range.twist / twist.max(1.0),
             curvature: self.range.curvature / bend,
             shear: self.range.shear / shear,
             ..self.range
@@ -47,6 +50,7 @@ impl Homogenised {
             form: self.form.clone(),
             unrolled: Potential::new(&self.form, &coefficients, [bend, twist, shear]),
             scales: SixVector::new(bend, bend, twist, shear, shear, 1.0),
+            twist_factor,
             coefficients,
             range,
         }
@@ -77,6 +81,20 @@ mod tests {
         assert!((jet.energy - 0.5 * whole.energy).abs() < 1e-13 * whole.energy);
         assert!((jet.loads - 0.5 * whole.loads).amax() < 1e-13 * whole.loads.amax());
         assert!((half.loads(&strain) - jet.loads).amax() < 1e-11 * jet.loads.amax());
+    }
+
+    #[test]
+    fn a_factor_of_twist_multiplies_the_energy_of_twist() {
+        let law = Homogenised::mean_filament();
+        let altered = law.softened(&factors(1.0, 1.0, 0.2, 0.1));
+        for twist in [-0.02, -2e-3, 1e-4, 0.01] {
+            let kappa = nalgebra::Vector3::z() * twist;
+            let [whole, tenth] = [law, altered].map(|law| law.joint_energy(kappa));
+            assert!(
+                (tenth / whole - 0.1).abs() < 1e-12,
+                "{twist}: {tenth}, {whole}"
+            );
+        }
     }
 
     #[test]

@@ -21,7 +21,7 @@ const IMPASSABLE: f64 = Kernel::YIELD;
 const IMPASSABLE_KEPT: f64 = 0.99;
 /// Fraction of the contact distance, or of a smaller initial distance, up to which filaments
 /// approach in one iteration. Their repulsion is then moderate.
-const MEETING: f64 = 0.95;
+const MEETING: f64 = 0.85;
 /// Effective number of neighbours that press on a filament. A filament in a bundle has six
 /// neighbours, of which half act along one direction.
 const PRESSING: f64 = 3.0;

@@ -123,13 +123,13 @@ class Altered(Part):
 class AlteredRod(Part):
     """Parameters of a rod that differ from `rod` of the filament.
 
-    - `bend_rigidity_factor`: Factor of the bending rigidity; positive. Under the `Homogenised` laws, equal factors multiply the energy; a
-    smaller factor of one deformation also moves its nonlinearity to larger strains. In a heat bath, factors multiply
-    the free energy of unaltered monomers. Default: 1.0.
+    - `bend_rigidity_factor`: Factor of the bending rigidity; positive. Under the `Homogenised` laws, equal factors multiply the energy. A
+    smaller factor of bending or shear moves its nonlinearity to larger strains. In a heat bath, factors multiply the
+    free energy of unaltered monomers. Default: 1.0.
     - `law`: Constitutive law; by default the law of the filament. Default: None.
     - `material`: Rigidities; by default the rigidities of the filament. The same laws require the default material. Default: None.
-    - `rest_curvature_per_nm`: Rest curvature about the transverse axes d1 and d2, which are x and y for a filament along lab z;
-    finite. The radius of curvature is greater than the radius of the filament, 3.5 nm. Default: [0.0, 0.0].
+    - `rest_curvature_per_nm`: Rest curvature about the transverse axes d1 and d2, which are x and y for a filament along lab z, turned by
+    the rest twist before; finite. The radius of curvature is greater than the radius of the filament, 3.5 nm. Default: [0.0, 0.0].
     - `rest_twist_per_nm`: Rest twist; finite. Together with the rest curvature it defines a helix. The rod is built with this
     twist. For altered monomers, it is the change of `turn_deg` over `rise_nm`. Default: 0.0.
     - `shear_rigidity_factor`: Factor of the shear rigidity; positive. Default: 1.0.
@@ -1631,8 +1631,9 @@ class Table(Part):
 class TangentCorrelation(Part):
     """Mean cosine of the angle between cross-sections at a given distance, over all such pairs of the
     filament: `tangent_correlation[0]_over_20nm`. In a heat bath `summary.json` contains the persistence
-    length, `-distance / ln(mean)`. It is omitted if loads, linkers, walls, a second clamp, a `shape` or a
-    rest curvature also change the angles.
+    length, `-distance / ln(mean)`. It is omitted if more than heat bends the filament, such as loads, linkers,
+    walls or a flow, or if its sections are `altered` differently. Monomers turn relative to the axis, which shortens it
+    at small distances. From the means `m_a` and `m_b` over two distances `a < b` it is `(b - a) / ln(m_a / m_b)`.
 
     - `filament`: Index of the filament. Default: 0.
     - `over_nm`: Distance along the filament; positive, at most the distance between the outermost segments or

@@ -110,7 +110,7 @@ fn values(one: Observable, view: &View<'_>, past: &mut StoredPositions) -> Vec<f
 }
 
 /// Persistence length from the mean of a column of tangent correlations; `None` for other columns
-/// and for filaments that are bent by other causes than heat.
+/// and where the correlation does not determine it.
 fn derived_length(
     assembly: &Assembly,
     column: &str,
@@ -121,7 +121,7 @@ fn derived_length(
         Observable::TangentCorrelation { filament, over_nm }
             if tangents::columns(filament, over_nm)[0] == column =>
         {
-            let is_thermal = scene.nonthermal_bending_cause(filament).is_none();
+            let is_thermal = scene.persistence_length_obstacle(filament).is_none();
             is_thermal.then(|| tangents::persistence_length(over_nm, mean, error))
         }
         _ => None,

@@ -13,7 +13,7 @@ use actin_mechanics::wide::{Scalar, Simd, Wide3};
 /// Joints have the terms of curvature alone. These cancel in segments, whose energy is `W - U`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Potential {
-    /// Factors of bending, twist and shear before the terms are evaluated.
+    /// Factors of bending, twist and shear in all terms but `twist`.
     scales: [f64; 3],
     rest: f64,
     natural: [f64; 10],
@@ -89,13 +89,16 @@ impl Potential {
     /// Torque (pN nm) of a twist (rad/nm) without bending.
     #[inline]
     pub(crate) fn twisting(&self, k: f64) -> f64 {
-        let [_, by, _] = self.scales;
-        let k = by * k;
-        let root = k.mul_add(k, TWIST_SIZE * TWIST_SIZE).sqrt();
-        let (t, ratio) = (k / root, TWIST_SIZE / root);
-        let [twist, slope] = jet(Scalar, &self.twist, t);
-        let by_t = slope * k * k * ratio * ratio / root;
-        by * (2.0 * twist * k + self.turn[0] + by_t)
+        self.twist_alone(Scalar, k, bounded(Scalar, k)) + self.scales[1] * self.turn[0]
+    }
+
+    /// Torque of the term of twist alone at a twist, with `t` and its derivative.
+    #[inline(always)]
+    fn twist_alone<S: Simd>(&self, simd: S, k: S::f64s, [t, slope]: [S::f64s; 2]) -> S::f64s {
+        let [twist, by_t] = jet(simd, &self.twist, t);
+        let by_t = simd.mul_f64s(simd.mul_f64s(by_t, slope), k);
+        let over_k = simd.mul_add_e_f64s(simd.splat_f64s(2.0), twist, by_t);
+        simd.mul_f64s(k, over_k)
     }
 
     /// Scales the curvature and the twist, or their torques.
@@ -134,6 +137,19 @@ fn jet<S: Simd, const N: usize>(simd: S, coefficients: &[f64; N], t: S::f64s) ->
     }
     let lowest = simd.splat_f64s(coefficients[0]);
     [simd.mul_add_e_f64s(value, t, lowest), slope]
+}
+
+/// Bounded twist `t = k / sqrt(k^2 + k_0^2)` and its derivative `k_0^2 / (k^2 + k_0^2)^(3/2)`.
+#[inline(always)]
+fn bounded<S: Simd>(simd: S, k: S::f64s) -> [S::f64s; 2] {
+    let size = simd.splat_f64s(TWIST_SIZE);
+    let root = simd.sqrt_f64s(simd.mul_add_e_f64s(k, k, simd.mul_f64s(size, size)));
+    let inverse = simd.div_f64s(simd.splat_f64s(1.0), root);
+    let ratio = simd.mul_f64s(size, inverse);
+    [
+        simd.mul_f64s(k, inverse),
+        simd.mul_f64s(simd.mul_f64s(ratio, ratio), inverse),
+    ]
 }
 
 #[inline(always)]
@@ -231,6 +247,7 @@ impl Law for Potential {
 
     #[inline(always)]
     fn bending<S: Simd>(&self, simd: S, kappa: Wide3<S>) -> Wide3<S> {
+        let own = kappa[2];
         let kappa = self.scaled(simd, kappa);
         let [x, y, k] = kappa;
         let a = squared(simd, kappa);
@@ -240,20 +257,22 @@ impl Law for Potential {
         let inverses = [qs, roots.twist].map(|other| simd.mul_f64s(inverse, other));
         let bent = roots.bent(simd, [a, k], inverses);
         let [t, slope] = bent.twist;
-        let [twist, twist_slope] = jet(simd, &self.twist, t);
+        let of_own = if self.scales[1].total_cmp(&1.0).is_eq() {
+            bent.twist
+        } else {
+            bounded(simd, own)
+        };
         let [bend, bend_slope] = jet(simd, &self.bend, t);
         let [root, root_slope] = jet(simd, &self.root, t);
         let mut by_a = simd.mul_add_e_f64s(bend, bent.bend[1], simd.splat_f64s(self.any_bend[0]));
         by_a = twice(simd, simd.mul_add_e_f64s(root, bent.root[1], by_a));
-        let mut by_t = simd.mul_f64s(twist_slope, simd.mul_f64s(k, k));
-        by_t = simd.mul_add_e_f64s(bend_slope, bent.bend[0], by_t);
+        let mut by_t = simd.mul_f64s(bend_slope, bent.bend[0]);
         by_t = simd.mul_add_e_f64s(root_slope, bent.root[0], by_t);
-        let by_k = simd.mul_add_e_f64s(twice(simd, twist), k, simd.splat_f64s(self.turn[0]));
-        let about = simd.mul_add_e_f64s(by_t, slope, by_k);
-        self.scaled(
-            simd,
-            [simd.mul_f64s(x, by_a), simd.mul_f64s(y, by_a), about],
-        )
+        let about = simd.mul_add_e_f64s(by_t, slope, simd.splat_f64s(self.turn[0]));
+        let bent = [simd.mul_f64s(x, by_a), simd.mul_f64s(y, by_a), about];
+        let [x, y, about] = self.scaled(simd, bent);
+        let twist = self.twist_alone(simd, own, of_own);
+        [x, y, simd.add_f64s(about, twist)]
     }
 
     #[inline(always)]
