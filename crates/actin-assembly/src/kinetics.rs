@@ -169,16 +169,13 @@ impl Kinetics {
         rates: Rates,
         state: &mut State,
     ) {
-        let switching = Switching {
+        self.all.push(Switching {
             index,
             average: ForceAverage::new(state, rates.averaging_time()),
             linker,
             rates,
             table,
-        };
-        let forces = switching.forces(state);
-        switching.average.add(state, f64::INFINITY, forces);
-        self.all.push(switching);
+        });
     }
 
     /// Returns linker `index`, if its state can change.

@@ -2,7 +2,7 @@
 
 use crate::scene::{Scene, SceneProblem, Setting, Start, Task};
 use crate::{Assembly, BodyKind, FilamentSpan};
-use actin_mechanics::State;
+use actin_mechanics::{State, Vector3};
 
 /// Tolerance for equal arc lengths and positions (nm): far above round-off, far below changes of a scene.
 const SAME_PLACE_NM: f64 = 1e-6;
@@ -90,7 +90,20 @@ impl Assembly {
             );
             return Err(self.refused_start(rule));
         }
+        let mut monomers = self.monomers_as_built().zip(run.monomers_as_built());
+        if monomers.any(|(own, other)| (own - other).norm() > SAME_PLACE_NM) {
+            let rule = "is a run whose monomers are built at other places: write the same radius_nm, azimuth_deg and \
+                        turn_deg";
+            return Err(self.refused_start(rule));
+        }
         Ok(())
+    }
+
+    /// Places of the centres of the monomers as built (nm, lab frame).
+    fn monomers_as_built(&self) -> impl Iterator<Item = Vector3> + '_ {
+        let points = self.points.iter().enumerate();
+        let monomers = points.filter(|(_, point)| point.kind == BodyKind::Monomer);
+        monomers.map(|(i, _)| self.rest.points.position.get(i))
     }
 
     /// Kind and arc length (nm) of each point, then of each frame.

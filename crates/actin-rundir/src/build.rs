@@ -184,6 +184,9 @@ mod tests {
         run(&scene(task), &folder.path().join("other"));
         moved.start = after(&folder.path().join("other"), task).start;
         assert!(refusal(&moved).contains("filament 0 has another position"));
+        let mut wider = after(&folder.path().join("other"), task);
+        wider.filament.monomers.radius_nm = 2.2;
+        assert!(refusal(&wider).contains("monomers are built at other places"));
         let summary = at.join("summary.json");
         let text = fs::read_to_string(&summary).unwrap();
         let failed = text.replacen('{', "{\"failure\": \"no equilibrium\",", 1);

@@ -33,8 +33,8 @@ pub struct Kinetics {
     /// Stepping of the site along the filament; by default the site is fixed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<Stepping>,
-    /// Time constant of the exponential average of forces; at least 0. By default a tenth of the mean time between
-    /// events of a bound linker without force. With 0, rates depend on the force at the end of each step.
+    /// Time constant of the exponential average of forces, behind which rates lag; at least 0. By default a tenth of the
+    /// mean time between events of a bound linker without force. With 0, rates depend on the force at the end of each step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub averaging_ns: Option<f64>,
     /// Binding of both ends to any site of any filament. By default only the first end can be released. Written by

@@ -38,6 +38,9 @@ const FEWEST: u64 = 8;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BlockAverages {
     levels: Vec<Level>,
+    /// Unfinished shortest block.
+    open: Level,
+    values: u64,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -68,9 +71,25 @@ pub struct Estimate {
 }
 
 impl BlockAverages {
-    /// Adds the next value of the series.
+    /// Adds the next value of the series, which is a block of its own.
     pub fn push(&mut self, value: f64) {
-        let mut average = value;
+        self.push_part(value);
+        self.end_block();
+    }
+
+    /// Adds the next value to the present shortest block, for series with a period.
+    pub fn push_part(&mut self, value: f64) {
+        self.values += 1;
+        self.open.add(value);
+    }
+
+    /// Ends the present shortest block, if it has values.
+    pub fn end_block(&mut self) {
+        let block = std::mem::take(&mut self.open);
+        if block.count == 0 {
+            return;
+        }
+        let mut average = block.mean;
         for level in &mut self.levels {
             level.add(average);
             match level.half.take() {
@@ -114,9 +133,9 @@ impl BlockAverages {
         };
         Some(Estimate {
             mean: first.mean,
-            values: first.count,
+            values: self.values,
             error,
-            block: level.map(|(k, _)| 1 << k),
+            block: level.map(|(k, _)| (self.values / first.count) << k),
             independent: values * share,
         })
     }
@@ -228,5 +247,20 @@ mod tests {
         let constant = estimate(&[2.0; 20]);
         assert_eq!((constant.error, constant.block), (Some(0.0), Some(1)));
         assert!((constant.independent - 20.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn whole_periods_have_no_error() {
+        let mut blocks = BlockAverages::default();
+        for k in 1..=400_u32 {
+            let sine = (std::f64::consts::TAU * f64::from(k) / 50.0).sin();
+            blocks.push_part(sine * sine);
+            if k % 50 == 0 {
+                blocks.end_block();
+            }
+        }
+        let estimate = blocks.estimate().unwrap();
+        assert_eq!(estimate.values, 400);
+        assert!((estimate.mean - 0.5).abs() < 1e-14 && estimate.error.unwrap() < 1e-14);
     }
 }

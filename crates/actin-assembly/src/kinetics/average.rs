@@ -127,4 +127,20 @@ mod tests {
             assert!((average.against(0, &state) - 0.5).abs() < 1e-12);
         }
     }
+
+    /// A force that jumps from 0 to 10 pN, for less than the time constant.
+    #[test]
+    fn a_jump_does_not_count_as_a_fluctuation() {
+        let mut state = State::default();
+        let average = ForceAverage::new(&mut state, 1000.0);
+        for k in 0..100 {
+            let force = if k < 5 { 0.0 } else { 10.0 };
+            average.add(&mut state, 1.0, (Vector3::x() * force, [0.0; 2]));
+        }
+        let (vector, tension) = average.tension(&state);
+        assert!(
+            vector.x > 9.5 && (tension - vector.x).abs() < 0.05,
+            "{vector} {tension}"
+        );
+    }
 }

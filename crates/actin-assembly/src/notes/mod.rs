@@ -65,6 +65,9 @@ impl fmt::Display for Note {
     }
 }
 
+/// Largest averaging time of forces over the duration of a stage.
+const LAGGING: f64 = 0.1;
+
 /// Distance (nm) above which monomers shorten the persistence length by about 5 % or less (`docs/measured/heat.md`).
 const FAR_NM: f64 = 100.0;
 
@@ -126,18 +129,16 @@ impl Assembly {
             (codes::ROD_LAW, laws.collect()),
             (codes::PERSISTENCE_LENGTH, self.undetermined_lengths()),
             (codes::NEAR_CORRELATION, self.shortened_lengths()),
+            (
+                codes::LINKER_AVERAGING,
+                Vec::from_iter(lagging_averages(&self.scene)),
+            ),
         ];
         for (code, messages) in warnings {
             notes.extend(Note::warnings(code, messages));
         }
         notes.extend(self.sampled.iter().map(InterfaceSampling::note));
-        let mut unique = Vec::new();
-        for note in notes {
-            if !unique.contains(&note) {
-                unique.push(note);
-            }
-        }
-        unique
+        without_repetitions(notes)
     }
 
     /// Warnings on tangent correlations from which no persistence length can be computed.
@@ -195,6 +196,37 @@ impl Assembly {
             )
         })
     }
+}
+
+fn without_repetitions(notes: Vec<Note>) -> Vec<Note> {
+    let mut unique = Vec::new();
+    for note in notes {
+        if !unique.contains(&note) {
+            unique.push(note);
+        }
+    }
+    unique
+}
+
+/// Warning on linkers whose averages of forces lag behind a stage of the path.
+fn lagging_averages(scene: &Scene) -> Option<String> {
+    let stages = scene.path.iter().enumerate();
+    let durations = stages.filter_map(|(k, stage)| Some((k, stage.duration_ns?)));
+    let (stage, duration) = durations.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    let mut lagging = scene.linkers.iter().enumerate().filter_map(|(i, linker)| {
+        let time = linker.kinetics?.averaging_time();
+        (time > LAGGING * duration).then_some((i, time))
+    });
+    let (linker, time) = lagging.next()?;
+    let others = match lagging.count() {
+        0 => String::new(),
+        count => format!(" (likewise for {count} more)"),
+    };
+    Some(format!(
+        "linkers[{linker}]: rates follow the force averaged over {time:.1e} ns{others}, which lags behind the changes of \
+         path[{stage}] in {duration:.1e} ns: write averaging_ns of at most {:.1e}",
+        LAGGING * duration
+    ))
 }
 
 impl SectionChoice {
@@ -363,5 +395,30 @@ mod tests {
         assert!(found[0].starts_with("a rod of 25.0 nm with the law Homogenised"));
         assert_eq!(rods("Homogenised", [61.0, 100.0]), [""; 0]);
         assert_eq!(rods("Fitted", [40.0, 25.0]), [""; 0]);
+    }
+
+    #[test]
+    fn averages_that_lag_are_noted() {
+        let found = |averaging: &str| {
+            let scene = Scene::from_ron(&format!(
+                "Scene(
+                    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)]),
+                    clamps: [Clamp(end: Start)],
+                    linkers: [Linker(at_nm: 40.0, displaced_nm: (1.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0,
+                        kinetics: (seed: 1, breaks: (rate_per_ns: 1e-3, force_pn: 5.0){averaging}))],
+                    path: [Stage(duration_ns: 0.5, set: [Anchor(linker: 0, shift_nm: (2.0, 0.0, 0.0))])],
+                    task: Dynamics(duration_ns: 1.0),
+                )"
+            ));
+            let notes = Assembly::build(&scene.unwrap()).unwrap().notes();
+            let mut messages = notes.into_iter().map(|note| note.message);
+            messages.find(|message| message.starts_with("linkers[0]: rates follow the force"))
+        };
+        assert!(
+            found("")
+                .unwrap()
+                .ends_with("write averaging_ns of at most 5.0e-2")
+        );
+        assert_eq!(found(", averaging_ns: 0.05"), None);
     }
 }

@@ -897,8 +897,8 @@ class Kinetics(Part):
     h/2`. Below, `f` is the tension of the linker, or 0 in compression, averaged over `averaging_ns`. Thermal
     fluctuations that are faster do not change rates.
 
-    - `averaging_ns`: Time constant of the exponential average of forces; at least 0. By default a tenth of the mean time between
-    events of a bound linker without force. With 0, rates depend on the force at the end of each step.
+    - `averaging_ns`: Time constant of the exponential average of forces, behind which rates lag; at least 0. By default a tenth of the
+    mean time between events of a bound linker without force. With 0, rates depend on the force at the end of each step.
     - `bound`: True if the linker is bound at the start. Default: True.
     - `breaks`: Breaking; by default the linker does not break.
     - `forms`: Forming; by default the linker does not form.

@@ -1,6 +1,6 @@
 //! Means of observed quantities over a run in a heat bath, for `summary.json`.
 
-use super::{derived_length, observed_columns};
+use super::{derived_length, network, observed_columns};
 use crate::statistics::{BlockAverages, Estimate};
 use crate::{Assembly, At};
 use serde::{Deserialize, Serialize};
@@ -52,14 +52,26 @@ pub(crate) struct Averages<'a> {
     /// Start of the averages (ns); `None` without thermal noise.
     from_ns: Option<f64>,
     columns: Vec<BlockAverages>,
+    /// Period of a column (ns), whose blocks are whole periods.
+    periods: Vec<Option<f64>>,
     last: Vec<f64>,
+}
+
+/// Returns `true` after a whole number of periods, up to rounding.
+fn ends_period(periods: f64) -> bool {
+    (periods - periods.round()).abs() < 1e-6
 }
 
 impl<'a> Averages<'a> {
     pub(crate) fn new(assembly: &'a Assembly) -> Self {
+        let names = observed_columns(assembly).into_iter();
+        let periods: Vec<_> = names
+            .map(|name| network::period_ns(&assembly.scene, &name))
+            .collect();
         Self {
             from_ns: assembly.scene.burn_in(),
-            columns: vec![BlockAverages::default(); observed_columns(assembly).len()],
+            columns: vec![BlockAverages::default(); periods.len()],
+            periods,
             assembly,
             last: Vec::new(),
         }
@@ -81,10 +93,13 @@ impl<'a> Averages<'a> {
     }
 
     pub(crate) fn add(&mut self, time_ns: f64, row: &[f64]) {
-        if self.from_ns.is_some_and(|from| time_ns >= from) {
-            let known = self.columns.iter_mut().zip(row);
-            for (column, value) in known.filter(|(_, value)| value.is_finite()) {
-                column.push(*value);
+        if let Some(from) = self.from_ns.filter(|from| time_ns >= *from) {
+            let columns = self.columns.iter_mut().zip(&self.periods).zip(row);
+            for ((column, period), value) in columns.filter(|(_, value)| value.is_finite()) {
+                column.push_part(*value);
+                if period.is_none_or(|period| ends_period((time_ns - from) / period)) {
+                    column.end_block();
+                }
             }
         }
         self.last = row.to_vec();

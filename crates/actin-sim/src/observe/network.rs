@@ -129,6 +129,12 @@ pub(super) fn columns(scene: &Scene) -> Vec<String> {
     scalars.chain(virial).chain(stress).chain(moduli).collect()
 }
 
+/// Period (ns) of the terms of a modulus, which vary within it also without noise; `None` for other columns.
+pub(super) fn period_ns(scene: &Scene, column: &str) -> Option<f64> {
+    let oscillation = Oscillation::new(scene).filter(|_| MODULI.contains(&column))?;
+    Some(oscillation.period_ns)
+}
+
 /// Refuses records from which the moduli of an oscillating box cannot be averaged.
 pub(super) fn check(scene: &Scene, times: Option<&RecordTimes>) -> Checked {
     match (Oscillation::new(scene), times) {
