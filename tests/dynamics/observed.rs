@@ -163,7 +163,7 @@ const BENDS: [(&str, &str, &str); 8] = [
     (
         ", altered: (bend_rigidity_factor: 0.5)), Rod(from_nm: 60.0, to_nm: 100.0)])",
         "",
-        "its sections differ in rigidity",
+        "its sections are altered differently",
     ),
 ];
 

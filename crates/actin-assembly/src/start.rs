@@ -92,8 +92,8 @@ impl Assembly {
         }
         let mut monomers = self.monomers_as_built().zip(run.monomers_as_built());
         if monomers.any(|(own, other)| (own - other).norm() > SAME_PLACE_NM) {
-            let rule = "is a run whose monomers are built at other places: write the same radius_nm, azimuth_deg and \
-                        turn_deg";
+            let rule = "is a run whose monomers are built at other places: write the same radius_nm, azimuth_deg, \
+                        turn_deg, shape and rest twist";
             return Err(self.refused_start(rule));
         }
         Ok(())

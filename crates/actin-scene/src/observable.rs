@@ -355,7 +355,7 @@ impl Scene {
                 !sections
                     .windows(2)
                     .all(|pair| pair[0].is_altered_like(pair[1])),
-                "its sections differ in rigidity",
+                "its sections are altered differently",
             ),
         ];
         reasons

@@ -3,7 +3,7 @@
 /// Smallest number of blocks for an error, whose relative error is then about a quarter.
 const FEWEST: u64 = 8;
 
-/// Averages over blocks of 1, 2, 4, 8, ... values of a series, updated with each value.
+/// Averages over blocks of 1, 2, 4, 8, ... values or whole periods of a series, updated with each value.
 ///
 /// For `n` independent blocks of one length with averages `a_i`, the standard error of the mean is
 ///
@@ -79,7 +79,6 @@ impl BlockAverages {
 
     /// Adds the next value to the present shortest block, for series with a period.
     pub fn push_part(&mut self, value: f64) {
-        self.values += 1;
         self.open.add(value);
     }
 
@@ -89,6 +88,7 @@ impl BlockAverages {
         if block.count == 0 {
             return;
         }
+        self.values += block.count;
         let mut average = block.mean;
         for level in &mut self.levels {
             level.add(average);
@@ -106,7 +106,7 @@ impl BlockAverages {
         self.levels.push(level);
     }
 
-    /// Returns the mean and its error, or `None` without values.
+    /// Returns the mean and its error, or `None` without a complete block. An unfinished block does not count.
     pub fn estimate(&self) -> Option<Estimate> {
         let first = self.levels.first()?;
         let single = first.error();

@@ -2,7 +2,7 @@
 
 use actin_mechanics::{ControlId, State, Vector3};
 
-/// Exponential averages since a linker has formed, in controls of the state.
+/// Exponential averages since the start of the run or since a linker has formed, in controls of the state.
 ///
 /// ```text
 /// <F>^2 = |A|^2 - c (Q - |A|^2) / (1 - c)

@@ -7,7 +7,7 @@ use crate::{Assembly, SectionSpan};
 ///
 /// # Source
 /// `docs/measured/studies.md`, "Boundary of cofilin": in ends turned by up to 45 degrees, six
-/// monomers leave errors of up to 4 %, four of up to 8 %.
+/// monomers leave errors of up to 4 %, four of up to 5 %, two of up to 8 %.
 const BESIDE: usize = 6;
 
 impl Assembly {

@@ -30,14 +30,14 @@ impl Homogenised {
     /// Torque (pN nm) and its derivative: all terms of extension and shear vanish at the natural
     /// length.
     pub(super) fn joint_jet(&self, kappa: Vector3) -> (Vector3, Matrix3) {
-        let own_twist = self.twist_jet(kappa.z);
+        let of_twist = self.twist_jet(kappa.z);
         let scales: Vector3 = self.scales.fixed_rows::<3>(0).into();
         let kappa = kappa.component_mul(&scales);
         let (a, k) = (kappa.xy().norm_squared(), kappa.z);
         let t = bounded_twist(k);
         let by_twist = |term| polynomial(self.coefficients(term), t);
         let mut by_a = [self.coefficients(Term::AnyBend)[0], 0.0];
-        let mut by_k = [self.coefficients(Term::Turn)[0], 0.0];
+        let mut by_k = [0.0; 2];
         let mut mixed = 0.0;
         let bent = [
             (Term::Bend, bounded_square(a, CURVATURE)),
@@ -58,8 +58,8 @@ impl Homogenised {
         tangent += Matrix3::from_diagonal(&Vector3::new(2.0 * by_a[0], 2.0 * by_a[0], by_k[1]));
         couple.component_mul_assign(&scales);
         tangent.component_mul_assign(&(scales * scales.transpose()));
-        couple.z += own_twist[1];
-        tangent[(2, 2)] += own_twist[2];
+        couple.z += of_twist[1];
+        tangent[(2, 2)] += of_twist[2];
         (couple, tangent)
     }
 

@@ -80,7 +80,8 @@ pub struct Homogenised {
     form: HomogenisedForm,
     coefficients: [Polynomial; Term::ALL.len()],
     range: StrainRange,
-    /// Factors of the strains in all terms but [`Term::Twist`]; 1 by default, and always for stretch.
+    /// Factors of the strains in all terms but those of twist alone; 1 by default, and always for
+    /// stretch.
     scales: SixVector,
     /// Factor of the twisting rigidity; 1 by default.
     twist_factor: f64,
@@ -199,10 +200,13 @@ impl HomogenisedForm {
     }
 }
 
-/// Terms without [`Term::Twist`].
+/// Terms of twist alone.
+const OF_TWIST: [Term; 2] = [Term::Twist, Term::Turn];
+
+/// Other terms.
 fn coupled_terms() -> impl Iterator<Item = Term> {
     let all = Term::ALL.into_iter();
-    all.filter(|term| *term != Term::Twist)
+    all.filter(|term| !OF_TWIST.contains(term))
 }
 
 /// `e`, `a`, `g`, `c`, `kappa_3`.
@@ -306,13 +310,14 @@ impl Homogenised {
         coupled + twist
     }
 
-    /// Term [`Term::Twist`] with two derivatives.
+    /// Terms of twist alone with two derivatives.
     fn twist_jet(&self, twist: f64) -> Jet {
         let [p, slope, bend] = polynomial(self.coefficients(Term::Twist), bounded_twist(twist));
+        let turn = self.coefficients(Term::Turn)[0];
         let square = twist * twist;
         [
-            square * p,
-            2.0 * twist * p + square * slope,
+            square * p + turn * twist,
+            2.0 * twist * p + square * slope + turn,
             2.0 * p + 4.0 * twist * slope + square * bend,
         ]
     }

@@ -1,20 +1,20 @@
 //! Potentials of altered rods.
 
-use super::{Homogenised, Potential, SixVector, StrainRange, Term};
+use super::{Homogenised, OF_TWIST, Potential, SixVector, StrainRange};
 use crate::RigidityFactors;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 impl Homogenised {
-    /// Potential of a rod whose rigidities are multiplied by factors `f`, with the term `T` of twist alone:
+    /// Potential of a rod whose rigidities are multiplied by factors `f`, with the terms `T` of twist alone:
     ///
     /// ```text
     /// U(x) = f_twist T(x) + f_stretch (W - T)(x_i sqrt(f_i / f_stretch))
     /// ```
     ///
     /// Equal factors multiply the energy, as for softer bonds of the same shape. A smaller factor of one deformation
-    /// moves the nonlinearity of the other terms to larger strains. `T` has no rigidity at rest to speak of, so that
-    /// a scaled twist would divide it by up to the square of the factor.
+    /// moves the nonlinearity of the other terms to larger strains. `T` has hardly any rigidity at rest at zero
+    /// temperature, so that a scaled twist would divide it by up to the square of the factor.
     pub(crate) fn softened(&'static self, factors: &RigidityFactors) -> &'static Self {
         // Leaked on purpose: see `sampled_filament`.
         static LAWS: Mutex<BTreeMap<(usize, [u64; 4]), &'static Homogenised>> =
@@ -32,25 +32,33 @@ impl Homogenised {
             bend,
             twist,
         } = *factors;
-        let twist_factor = twist;
         let mut coefficients = self
             .coefficients
             .map(|polynomial| polynomial.map(|coefficient| stretch * coefficient));
-        coefficients[Term::Twist as usize] =
-            self.coefficients[Term::Twist as usize].map(|coefficient| twist * coefficient);
-        let [bend, twist, shear] = [bend, twist, shear].map(|factor| (factor / stretch).sqrt());
+        for term in OF_TWIST.map(|term| term as usize) {
+            coefficients[term] = self.coefficients[term].map(|coefficient| twist * coefficient);
+        }
+        let scales = [bend, twist, shear].map(|factor| (factor / stretch).sqrt());
+        let [bend_scale, twist_scale, shear_scale] = scales;
         let range = StrainRange {
-            // The data of the term of twist alone end at the same twist as before.
-            twist: self.range.twist / twist.max(1.0),
-            curvature: self.range.curvature / bend,
-            shear: self.range.shear / shear,
+            // The terms of twist alone are not scaled: their data end at the same twist.
+            twist: self.range.twist / twist_scale.max(1.0),
+            curvature: self.range.curvature / bend_scale,
+            shear: self.range.shear / shear_scale,
             ..self.range
         };
         Self {
             form: self.form.clone(),
-            unrolled: Potential::new(&self.form, &coefficients, [bend, twist, shear]),
-            scales: SixVector::new(bend, bend, twist, shear, shear, 1.0),
-            twist_factor,
+            unrolled: Potential::new(&self.form, &coefficients, scales),
+            scales: SixVector::new(
+                bend_scale,
+                bend_scale,
+                twist_scale,
+                shear_scale,
+                shear_scale,
+                1.0,
+            ),
+            twist_factor: twist,
             coefficients,
             range,
         }
@@ -84,16 +92,25 @@ mod tests {
     }
 
     #[test]
-    fn a_factor_of_twist_multiplies_the_energy_of_twist() {
-        let law = Homogenised::mean_filament();
-        let altered = law.softened(&factors(1.0, 1.0, 0.2, 0.1));
-        for twist in [-0.02, -2e-3, 1e-4, 0.01] {
-            let kappa = nalgebra::Vector3::z() * twist;
-            let [whole, tenth] = [law, altered].map(|law| law.joint_energy(kappa));
-            assert!(
-                (tenth / whole - 0.1).abs() < 1e-12,
-                "{twist}: {tenth}, {whole}"
-            );
+    fn a_factor_of_twist_multiplies_the_energy_and_the_couple_of_twist() {
+        for law in [
+            Homogenised::mean_filament(),
+            Homogenised::heated_rod(10.0, 298.0).unwrap(),
+        ] {
+            let altered = law.softened(&factors(1.0, 1.0, 0.2, 0.1));
+            for twist in [-0.02, -2e-3, 1e-4, 0.01] {
+                let kappa = nalgebra::Vector3::z() * twist;
+                let [whole, tenth] = [law, altered].map(|law| law.joint_energy(kappa));
+                assert!(
+                    (tenth / whole - 0.1).abs() < 1e-11,
+                    "{twist}: {tenth}, {whole}"
+                );
+                let [whole, tenth] = [law, altered].map(|law| law.joint_couple(kappa).z);
+                assert!(
+                    (tenth / whole - 0.1).abs() < 1e-11,
+                    "{twist}: {tenth}, {whole}"
+                );
+            }
         }
     }
 

@@ -57,9 +57,10 @@ pub(crate) struct Averages<'a> {
     last: Vec<f64>,
 }
 
-/// Returns `true` after a whole number of periods, up to rounding.
+/// Returns `true` after a whole number of periods, at least one, up to rounding.
 fn ends_period(periods: f64) -> bool {
-    (periods - periods.round()).abs() < 1e-6
+    let whole = periods.round();
+    whole >= 1.0 && (periods - whole).abs() < 1e-6
 }
 
 impl<'a> Averages<'a> {

@@ -89,7 +89,7 @@ impl Oscillation {
     /// Terms whose means over whole periods are the storage and loss modulus, for a stress at a time (ns): `2 stress
     /// sin(phase) / amplitude` and `2 stress cos(phase) / amplitude`. NaN before the means.
     fn moduli(&self, stress: f64, time: f64) -> [f64; 2] {
-        if time <= self.from_ns {
+        if time - self.from_ns <= SAME * self.period_ns {
             return [f64::NAN; 2];
         }
         let (sine, cosine) = (TAU * time / self.period_ns + self.phase).sin_cos();

@@ -13,7 +13,7 @@ use actin_mechanics::wide::{Scalar, Simd, Wide3};
 /// Joints have the terms of curvature alone. These cancel in segments, whose energy is `W - U`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Potential {
-    /// Factors of bending, twist and shear in all terms but `twist`.
+    /// Factors of bending, twist and shear in all terms but `twist` and `turn`.
     scales: [f64; 3],
     rest: f64,
     natural: [f64; 10],
@@ -89,16 +89,16 @@ impl Potential {
     /// Torque (pN nm) of a twist (rad/nm) without bending.
     #[inline]
     pub(crate) fn twisting(&self, k: f64) -> f64 {
-        self.twist_alone(Scalar, k, bounded(Scalar, k)) + self.scales[1] * self.turn[0]
+        self.twist_alone(Scalar, k, bounded(Scalar, k))
     }
 
-    /// Torque of the term of twist alone at a twist, with `t` and its derivative.
+    /// Torque of the terms of twist alone at a twist, with `t` and its derivative.
     #[inline(always)]
     fn twist_alone<S: Simd>(&self, simd: S, k: S::f64s, [t, slope]: [S::f64s; 2]) -> S::f64s {
         let [twist, by_t] = jet(simd, &self.twist, t);
         let by_t = simd.mul_f64s(simd.mul_f64s(by_t, slope), k);
         let over_k = simd.mul_add_e_f64s(simd.splat_f64s(2.0), twist, by_t);
-        simd.mul_f64s(k, over_k)
+        simd.mul_add_e_f64s(k, over_k, simd.splat_f64s(self.turn[0]))
     }
 
     /// Scales the curvature and the twist, or their torques.
@@ -247,7 +247,7 @@ impl Law for Potential {
 
     #[inline(always)]
     fn bending<S: Simd>(&self, simd: S, kappa: Wide3<S>) -> Wide3<S> {
-        let own = kappa[2];
+        let unscaled = kappa[2];
         let kappa = self.scaled(simd, kappa);
         let [x, y, k] = kappa;
         let a = squared(simd, kappa);
@@ -257,10 +257,11 @@ impl Law for Potential {
         let inverses = [qs, roots.twist].map(|other| simd.mul_f64s(inverse, other));
         let bent = roots.bent(simd, [a, k], inverses);
         let [t, slope] = bent.twist;
-        let of_own = if self.scales[1].total_cmp(&1.0).is_eq() {
+        // Without a factor, this saves a square root and a division.
+        let bounded_twist = if self.scales[1].total_cmp(&1.0).is_eq() {
             bent.twist
         } else {
-            bounded(simd, own)
+            bounded(simd, unscaled)
         };
         let [bend, bend_slope] = jet(simd, &self.bend, t);
         let [root, root_slope] = jet(simd, &self.root, t);
@@ -268,10 +269,10 @@ impl Law for Potential {
         by_a = twice(simd, simd.mul_add_e_f64s(root, bent.root[1], by_a));
         let mut by_t = simd.mul_f64s(bend_slope, bent.bend[0]);
         by_t = simd.mul_add_e_f64s(root_slope, bent.root[0], by_t);
-        let about = simd.mul_add_e_f64s(by_t, slope, simd.splat_f64s(self.turn[0]));
+        let about = simd.mul_f64s(by_t, slope);
         let bent = [simd.mul_f64s(x, by_a), simd.mul_f64s(y, by_a), about];
         let [x, y, about] = self.scaled(simd, bent);
-        let twist = self.twist_alone(simd, own, of_own);
+        let twist = self.twist_alone(simd, unscaled, bounded_twist);
         [x, y, simd.add_f64s(about, twist)]
     }
 
