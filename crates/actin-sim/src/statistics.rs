@@ -71,7 +71,7 @@ pub struct Estimate {
 }
 
 impl BlockAverages {
-    /// Adds the next value of the series, which is a block of its own.
+    /// Adds the next value of the series as a block.
     pub fn push(&mut self, value: f64) {
         self.push_part(value);
         self.end_block();

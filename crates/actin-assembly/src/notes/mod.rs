@@ -211,7 +211,7 @@ fn without_repetitions(notes: Vec<Note>) -> Vec<Note> {
     unique
 }
 
-/// Warning on linkers whose averages of forces lag behind a stage of the path.
+/// Warning on linkers whose averaged forces are late in a stage of the path.
 fn lagging_averages(scene: &Scene) -> Option<String> {
     let stages = scene.path.iter().enumerate();
     let moving = stages.filter(|(_, stage)| !stage.set.is_empty());

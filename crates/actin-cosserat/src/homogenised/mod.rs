@@ -80,8 +80,7 @@ pub struct Homogenised {
     form: HomogenisedForm,
     coefficients: [Polynomial; Term::ALL.len()],
     range: StrainRange,
-    /// Factors of the strains in all terms but those of twist alone; 1 by default, and always for
-    /// stretch.
+    /// Factors of the strains in all terms except [`OF_TWIST`]; 1 by default, and always for stretch.
     scales: SixVector,
     /// Factor of the twisting rigidity; 1 by default.
     twist_factor: f64,
