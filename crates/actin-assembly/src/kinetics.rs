@@ -3,7 +3,7 @@
 mod average;
 mod pool;
 
-use average::ForceAverage;
+use average::{ForceAverage, RecentAverage};
 use pool::Pool;
 
 use crate::scene::Kinetics as Rates;
@@ -169,9 +169,13 @@ impl Kinetics {
         rates: Rates,
         state: &mut State,
     ) {
+        let scale = rates.force_scale().filter(|_| rates.averaging_ns.is_none());
+        let stiffness = linker.linker(state).spring().stiffness;
+        let recent =
+            scale.map(|scale| RecentAverage::new(state, self.thermal_energy, stiffness, scale));
         self.all.push(Switching {
             index,
-            average: ForceAverage::new(state, rates.averaging_time()),
+            average: ForceAverage::new(state, rates.averaging_time(), recent),
             linker,
             rates,
             table,
@@ -182,6 +186,15 @@ impl Kinetics {
     pub(crate) fn linker(&self, index: usize) -> Option<&Switching> {
         let found = self.all.binary_search_by_key(&index, |s| s.index).ok()?;
         Some(&self.all[found])
+    }
+
+    /// Indices of the linkers whose rates depend on the force, with the times (ns) after which they follow it, for steps of
+    /// length `h` (ns).
+    pub(crate) fn delays(&self, h: f64) -> impl Iterator<Item = (usize, f64)> {
+        let depends =
+            |one: &&Switching| one.rates.force_scale().is_some() || one.rates.steps.is_some();
+        let all = self.all.iter().filter(depends);
+        all.map(move |one| (one.index, one.average.delay(h)))
     }
 
     pub(crate) fn booked(&self, state: &State) -> f64 {

@@ -1,7 +1,7 @@
 //! Factor of a load as a function of time.
 
-use super::SceneProblem;
 use super::rules::show;
+use super::{Load, Scene, SceneProblem};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -128,6 +128,17 @@ impl Factor {
             return Ok(());
         };
         check_table(&|name| format!("{key}.{name}"), time_ns, factor)
+    }
+}
+
+impl Scene {
+    /// Returns the times (ns) in which stages of the path, loads and the strain of the periodic box change.
+    pub fn times_of_change(&self) -> impl Iterator<Item = f64> {
+        let moving = self.path.iter().filter(|stage| !stage.set.is_empty());
+        let stages = moving.filter_map(|stage| stage.duration_ns);
+        let loads = self.loads.iter().map(Load::factor);
+        let factors = loads.chain(self.periodic.iter().map(|periodic| &periodic.factor));
+        stages.chain(factors.filter_map(Factor::shortest))
     }
 }
 

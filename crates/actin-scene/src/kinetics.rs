@@ -34,7 +34,9 @@ pub struct Kinetics {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<Stepping>,
     /// Time constant of the exponential average of forces, behind which rates lag; at least 0. By default a tenth of the
-    /// mean time between events of a bound linker without force. With 0, rates depend on the force at the end of each step.
+    /// mean time between events of a bound linker without force. If the force has changed by `F/2` in that time, breaking
+    /// follows the average over `50 kT (k h/2 + 400 pN ns/nm) / F^2`, if that is less than a quarter. `F` is the force of the
+    /// rate, `k` the stiffness, and `h` the time step. With 0, rates depend on the force at the end of each step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub averaging_ns: Option<f64>,
     /// Binding of both ends to any site of any filament. By default only the first end can be released. Written by
@@ -146,6 +148,15 @@ impl Kinetics {
         Ok(())
     }
 
+    /// Smallest change of the force (pN) at which a rate of breaking changes by a factor of e; `None` if rates of breaking
+    /// do not depend on the force.
+    pub fn force_scale(&self) -> Option<f64> {
+        let breaks = self.breaks?;
+        let catch = breaks.catch.map(|catch| catch.force_pn);
+        let scales = breaks.force_pn.into_iter().chain(catch);
+        scales.min_by(f64::total_cmp)
+    }
+
     /// Averaging time of forces (ns).
     pub fn averaging_time(&self) -> f64 {
         let of_bound = self
@@ -182,10 +193,11 @@ impl Stepping {
     pub(super) fn check(&self, key: &str, length: f64) -> Result<(), SceneProblem> {
         let step = self.step_nm;
         let places = length / step.abs();
-        if places <= MOST_PLACES {
+        if (1.0..=MOST_PLACES).contains(&places) {
             return Ok(());
         }
-        let rule = "must be finite, and at least a hundred-thousandth of the filament's length";
+        let rule =
+            "must be at most the length of the filament, and at least a hundred-thousandth of it";
         let key = format!("{key}.step_nm");
         Err(SceneProblem::new(key, show(step), rule))
     }

@@ -202,8 +202,8 @@ mod tests {
             Rod(from_nm: 0.0, to_nm: 80.0),
             Rod(from_nm: 80.0, to_nm: 160.0, altered: (twist_rigidity_factor: 0.1)),
         ])";
-        assert_eq!(notes(filament, BATH), [SOFTENED_IN_BATH]);
-        assert!(notes(filament, "").is_empty());
+        assert_eq!(notes(filament, BATH)[1..], [SOFTENED_IN_BATH]);
+        assert_eq!(notes(filament, "").len(), 1);
     }
 
     #[test]

@@ -65,7 +65,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// Largest averaging time of forces over the duration of a stage.
+/// Largest delay of averaged forces over the time of a change.
 const LAGGING: f64 = 0.1;
 
 /// Distance (nm) above which monomers shorten the persistence length by about 4 % or less (`docs/measured/heat.md`).
@@ -99,14 +99,24 @@ impl Assembly {
         })
     }
 
+    /// Notes that are not warnings.
+    fn remarks(&self) -> Vec<String> {
+        let mut remarks = Vec::new();
+        if let Some(following) = self.scene.filament.sections.following() {
+            let note = "sections follow the motion: numbers of bodies, time step and cost apply to the rods at its start";
+            remarks.push(note.to_owned());
+            remarks.extend(self.note_on_short_segments(following));
+        }
+        if self.scene.repulsion.is_some() && !self.scene.beads.is_empty() {
+            remarks.push("repulsion does not act on beads".to_owned());
+        }
+        remarks
+    }
+
     /// Returns the notes on this scene before its run.
     pub fn notes(&self) -> Vec<Note> {
         let mut notes: Vec<Note> = self.chosen.iter().map(SectionChoice::note).collect();
-        if let Some(following) = self.scene.filament.sections.following() {
-            let note = "sections follow the motion: numbers of bodies, time step and cost apply to the rods at its start";
-            notes.push(note.to_owned().into());
-            notes.extend(self.note_on_short_segments(following).map(Note::from));
-        }
+        notes.extend(self.remarks().into_iter().map(Note::from));
         let bath_k = self.scene.thermal().map(|thermal| thermal.temperature_k);
         let few_bonds = self.scene.filaments().flat_map(few_bonds_of_sections);
         let laws = self.scene.filaments();
@@ -131,7 +141,7 @@ impl Assembly {
             (codes::NEAR_CORRELATION, self.shortened_lengths()),
             (
                 codes::LINKER_AVERAGING,
-                Vec::from_iter(lagging_averages(&self.scene)),
+                Vec::from_iter(self.lagging_averages()),
             ),
         ];
         for (code, messages) in warnings {
@@ -185,6 +195,27 @@ impl Assembly {
         messages.collect()
     }
 
+    /// Warning on linkers whose averaged forces follow changes of the scene too late.
+    fn lagging_averages(&self) -> Option<String> {
+        let change = self.scene.times_of_change().min_by(f64::total_cmp)?;
+        let step = match &self.scene.task {
+            Task::Brownian(motion) => motion.time_step_ns,
+            _ => None,
+        };
+        let kinetics = self.kinetics.as_ref()?;
+        let delays = kinetics.delays(step.unwrap_or(0.0));
+        let mut lagging = delays.filter(|(_, delay)| *delay > LAGGING * change);
+        let (linker, delay) = lagging.next()?;
+        let others = match lagging.count() {
+            0 => String::new(),
+            count => format!(" (likewise for {count} more)"),
+        };
+        Some(format!(
+            "linker {linker}: rates follow the averaged force within {delay:.1e} ns{others}, which lags behind changes of \
+             the scene in {change:.1e} ns: write averaging_ns of at most a tenth of it"
+        ))
+    }
+
     fn short_rods(&self) -> Option<String> {
         let under_law = |rod: &&Rod| self.rod_model_of(rod.section).law.is_homogenised();
         let lengths = self.rods.iter().filter(under_law);
@@ -209,27 +240,6 @@ fn without_repetitions(notes: Vec<Note>) -> Vec<Note> {
         }
     }
     unique
-}
-
-/// Warning on linkers whose averaged forces are late in a stage of the path.
-fn lagging_averages(scene: &Scene) -> Option<String> {
-    let stages = scene.path.iter().enumerate();
-    let moving = stages.filter(|(_, stage)| !stage.set.is_empty());
-    let durations = moving.filter_map(|(k, stage)| Some((k, stage.duration_ns?)));
-    let (stage, duration) = durations.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
-    let mut lagging = scene.linkers.iter().enumerate().filter_map(|(i, linker)| {
-        let time = linker.kinetics?.averaging_time();
-        (time > LAGGING * duration).then_some((i, time))
-    });
-    let (linker, time) = lagging.next()?;
-    let others = match lagging.count() {
-        0 => String::new(),
-        count => format!(" (likewise for {count} more)"),
-    };
-    Some(format!(
-        "linker {linker}: rates follow the force averaged over {time:.1e} ns{others}, which lags behind the changes of \
-         path[{stage}] in {duration:.1e} ns: write averaging_ns of at most a tenth of it"
-    ))
 }
 
 impl SectionChoice {
@@ -415,9 +425,15 @@ mod tests {
             ));
             let notes = Assembly::build(&scene.unwrap()).unwrap().notes();
             let mut messages = notes.into_iter().map(|note| note.message);
-            messages.find(|message| message.starts_with("linker 0: rates follow the force"))
+            messages
+                .find(|message| message.starts_with("linker 0: rates follow the averaged force"))
         };
-        assert!(found("").unwrap().contains("path[0] in 5.0e-1 ns"));
+        let late = found(", averaging_ns: 0.06").unwrap();
+        assert!(
+            late.contains("within 6.0e-2 ns") && late.contains("changes of the scene in 5.0e-1 ns")
+        );
         assert_eq!(found(", averaging_ns: 0.05"), None);
+        // Without heat the recent average is the force of the last step.
+        assert_eq!(found(""), None);
     }
 }

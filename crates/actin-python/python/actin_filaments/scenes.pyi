@@ -898,7 +898,9 @@ class Kinetics(Part):
     fluctuations that are faster do not change rates.
 
     - `averaging_ns`: Time constant of the exponential average of forces, behind which rates lag; at least 0. By default a tenth of the
-    mean time between events of a bound linker without force. With 0, rates depend on the force at the end of each step.
+    mean time between events of a bound linker without force. If the force has changed by `F/2` in that time, breaking
+    follows the average over `50 kT (k h/2 + 400 pN ns/nm) / F^2`, if that is less than a quarter. `F` is the force of the
+    rate, `k` the stiffness, and `h` the time step. With 0, rates depend on the force at the end of each step.
     - `bound`: True if the linker is bound at the start. Default: True.
     - `breaks`: Breaking; by default the linker does not break.
     - `forms`: Forming; by default the linker does not form.

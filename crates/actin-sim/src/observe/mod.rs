@@ -25,7 +25,8 @@ pub(crate) use memory::Memory;
 pub(crate) use view::View;
 
 use crate::Assembly;
-use crate::scene::{Observable, SceneProblem};
+use crate::scene::{Observable, Scene, SceneProblem};
+use actin_assembly::Note;
 use memory::StoredPositions;
 
 /// Times of the records of a motion (ns).
@@ -147,6 +148,12 @@ pub(crate) fn check(assembly: &Assembly, times: Option<&RecordTimes>) -> Result<
         })?;
     }
     Ok(())
+}
+
+/// Note on means of observables that the scene does not determine.
+pub(crate) fn note(scene: &Scene) -> Option<Note> {
+    let is_observed = scene.observe.contains(&Observable::Network);
+    is_observed.then(|| network::note_on_moduli(scene))?
 }
 
 /// Columns of a vector in the lab frame, such as `tip[0]_x_nm`.

@@ -44,7 +44,7 @@ pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, S
     if is_athermal {
         longest /= PER_RECORD;
     }
-    let changes = of_changes(assembly).into_iter();
+    let changes = assembly.scene.times_of_change();
     let changes = changes.map(|time| time / PER_CHANGE);
     longest = changes.chain(of_rates(assembly)).fold(longest, f64::min);
     let Some(thermal) = motion.thermal else {
@@ -120,24 +120,6 @@ fn tension(assembly: &Assembly, filament: usize, length: f64) -> f64 {
             force * of_path * load.factor().largest()
         })
         .sum()
-}
-
-/// Times in which stages and loads change (ns).
-fn of_changes(assembly: &Assembly) -> Vec<f64> {
-    let scene = &assembly.scene;
-    let stages = scene.path.iter().filter_map(|stage| stage.duration_ns);
-    let loads = scene
-        .loads
-        .iter()
-        .filter_map(|load| load.factor().shortest())
-        .chain(
-            assembly
-                .scene
-                .periodic
-                .iter()
-                .filter_map(|one| one.factor.shortest()),
-        );
-    stages.chain(loads).collect()
 }
 
 /// Largest steps that rates allow (ns).

@@ -97,6 +97,7 @@ impl<'a> Plan<'a> {
         let estimate = self.estimate.iter();
         estimate
             .flat_map(|e| [e.notes(&scene.task), Vec::from_iter(e.note_on_means(scene))].concat())
+            .chain(observe::note(scene))
             .collect()
     }
 }

@@ -225,7 +225,7 @@ mod tests {
             Plane(at_nm: (-5.0, 0.0, 0.0), normal: (1.0, 0.0, 0.0)),
             Plane(at_nm: (5.0, 0.0, 0.0), normal: (-1.0, 0.0, 0.0)),
         ]),";
-        let long = errors(5e3, walls);
+        let long = errors(4e3, walls);
         assert!(
             long.iter().any(|error| error.term == "repulsion"),
             "{long:?}"

@@ -46,11 +46,16 @@
     return pixels(canvas);
   }
 
-  // Performs an action on a view and waits until it is redrawn.
-  async function redrawn(canvas, act) {
+  // Performs an action on a view and waits until it is redrawn, perhaps without all effects.
+  async function sketched(canvas, act) {
     const before = canvas.dataset.drawn;
     act();
     for (let i = 0; i < 100 && canvas.dataset.drawn === before; i += 1) await wait(20);
+    return pixels(canvas);
+  }
+
+  async function redrawn(canvas, act) {
+    await sketched(canvas, act);
     return rested(canvas);
   }
 
@@ -83,7 +88,7 @@
     for (const menu of figure.querySelectorAll('select:not([hidden])')) {
       for (let i = 0; i < menu.options.length; i += 1) {
         menu.selectedIndex = i;
-        const data = await redrawn(canvas, () => menu.dispatchEvent(new Event('change')));
+        const data = await sketched(canvas, () => menu.dispatchEvent(new Event('change')));
         states.push(painted(data));
       }
     }
@@ -122,10 +127,13 @@
       if (picture.tagName === 'IMG') return { width, height, loaded: picture.complete && picture.naturalWidth > 0 };
       return { width, height, loaded: picture.childElementCount > 0, clipped: clipped(picture), ...shades(picture) };
     });
-    const views = [];
-    for (const figure of document.querySelectorAll('figure.viewer')) views.push(await view(figure));
-    const { scrollWidth } = document.scrollingElement;
     const dark = matchMedia('(prefers-color-scheme: dark)').matches;
+    // Drawing takes most of the time: each width and each mode once.
+    const views = [];
+    if (window.innerWidth < 500 !== dark) {
+      for (const figure of document.querySelectorAll('figure.viewer')) views.push(await view(figure));
+    }
+    const { scrollWidth } = document.scrollingElement;
     const reach = [...document.querySelectorAll('body *')].filter((element) => {
       const right = element.getBoundingClientRect().right;
       return right > window.innerWidth + 1 && !element.closest('.scroll, svg, thead');
