@@ -41,7 +41,7 @@
 //! iteration omits the geometric stiffness, the second one omits it for springs, and later ones omit
 //! it in components, such as rods, whose matrix is not positive definite. Friction is added to a component if its
 //! iterations grow. A component counts as solved if its next iteration is predicted to change the
-//! energy by less than 1e-4 kT. If at most half of the components are unsolved, only
+//! energy by less than 1e-4 kT, and the loads confirm it. If at most half of the components are unsolved, only
 //! these are iterated and the others are held. A step ends with an iteration of all components.
 //!
 //! With springs between components that are stiff compared with `Z/h`, the equations may have further solutions far
