@@ -147,7 +147,7 @@ fn energy_of_stretch(stiffness: f64, rest_length_nm: f64) -> f64 {
 
 /// Filaments move by several rest lengths in a step, 30 to 100 thermal extensions. The tangential step of an iteration is
 /// then as long as the linker, so that small predicted changes of the energy do not show that it ends: without a check of the
-/// loads the energies are 13 and 2.5 kT.
+/// loads the energies are 45 and 0.71 kT.
 #[test]
 fn stiff_linkers_have_their_thermal_energy_in_long_steps() {
     for (rest_length_nm, keys) in [

@@ -3,7 +3,7 @@
 use super::filaments::mean_and_error;
 use crate::common::{build, ran};
 use actin_brownian::Cylinder;
-use actin_sim::mechanics::Vector3;
+use actin_sim::mechanics::{State, Vector3};
 use actin_sim::{End, Fluid, Plan, Record};
 use std::f64::consts::PI;
 
@@ -131,6 +131,43 @@ fn steps_in_water_depend_on_the_stiffness() {
     assert!(!is_relaxing && water.1);
     assert!((water.0 / verlet - 1.0).abs() < 1e-12);
     planned(", drag: Water(), thermal: (temperature_k: 298.0, seed: 1)");
+}
+
+/// A bead turns with half of the vorticity and moves with the fluid at its centre, on the axis of a short filament and off
+/// it. A filament alone turns into the flow and stays there.
+#[test]
+fn beads_follow_a_shear_flow_like_spheres() {
+    let turned = |distance: f64| {
+        let (assembly, trajectory, _) = ran(&format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 2)], rod: (law: Constant),
+                    direction: (0.0, 1.0, 0.0), at_nm: (0.0, 0.0, 100.0)),
+                beads: [Bead(site: Site(at_nm: 15.0, radius_nm: {distance:?}), radius_nm: 250.0)],
+                task: Brownian(duration_ms: 0.4, temperature_k: 0.0, time_step_ns: 1000.0, record_every_ns: 4e5,
+                    flow: Shear(rate_per_s: 1000.0, along: (1.0, 0.0, 0.0), across: (0.0, 0.0, 1.0))),
+            )"
+        ));
+        let friction = assembly.friction(&Fluid::default()).unwrap();
+        let bead = friction.dashpots.last().unwrap();
+        let [first, last] = [0, 1].map(|k| &trajectory.records[k].state);
+        let frame = |state: &State| state.frames.orientation.get(bead.frame);
+        let centre = |state: &State| {
+            let points = bead.points.map(|(i, w)| state.points.position.get(i) * w);
+            points[0] + points[1] + frame(state) * bead.arm
+        };
+        let turn = (frame(last) * frame(first).inverse()).scaled_axis();
+        (turn, centre(first), centre(last) - centre(first))
+    };
+    for distance in [0.0, 200.0] {
+        let (turn, from, moved) = turned(distance);
+        // A strain of 0.4. On its arm the filament has 0.02 of the friction of rotation.
+        let error = 1e-3 + 0.1 * (distance / 200.0) * 0.04;
+        assert!((turn - Vector3::y() * 0.2).norm() < error, "{turn}");
+        assert!(
+            (moved.x - 0.4 * from.z).abs() < 5e-3 * from.z.abs(),
+            "{from} {moved}"
+        );
+    }
 }
 
 /// A free filament with a trapped bead relaxes at the rate of the trap over the friction. Bodies

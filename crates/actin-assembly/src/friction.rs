@@ -51,6 +51,7 @@ impl Assembly {
             friction.turns.push(TurnDashpot {
                 frame: site.frame(),
                 friction: Vector3::repeat(of_turns),
+                is_sphere: true,
             });
         }
         Ok(friction)
@@ -131,7 +132,11 @@ impl FilamentDrag<'_> {
     fn turn(&self, frame: usize, length: f64) -> TurnDashpot {
         let (tilt, about) = (self.cylinder.tilt(), self.cylinder.about());
         let friction = Vector3::new(tilt, tilt, about) * length;
-        TurnDashpot { frame, friction }
+        TurnDashpot {
+            frame,
+            friction,
+            is_sphere: false,
+        }
     }
 
     fn add_monomers(&self, section: &SectionSpan, friction: &mut Friction) {

@@ -19,7 +19,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let of_place = Vector3::new(100.0, 100.0, 10.0);
     let dashpots = vec![Dashpot::of_body(point, frame, arm, of_place)];
     let friction = Vector3::repeat(1e9);
-    let turns = vec![TurnDashpot { frame, friction }];
+    let turns = vec![TurnDashpot {
+        frame,
+        friction,
+        is_sphere: false,
+    }];
     let friction = Friction { dashpots, turns };
 
     let (thermal_energy, seed, h, steps) = (4.11, 1, 1.0, 20_000);

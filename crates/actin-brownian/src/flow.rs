@@ -64,13 +64,31 @@ impl Flow {
         if *g == Matrix3::zeros() {
             return Vector3::zeros();
         }
+        let axis = q * Vector3::z();
+        let turning = axis.cross(&(g * axis)) + axis * self.rotation().dot(&axis);
+        q.inverse_transform_vector(&turning)
+    }
+
+    /// Angular velocity of the fluid and of a sphere in it (rad/ns, lab frame), half of the vorticity.
+    fn rotation(&self) -> Vector3 {
+        let g = &self.gradient;
         let curl = Vector3::new(
             g[(2, 1)] - g[(1, 2)],
             g[(0, 2)] - g[(2, 0)],
             g[(1, 0)] - g[(0, 1)],
         );
-        let axis = q * Vector3::z();
-        let turning = axis.cross(&(g * axis)) + axis * (0.5 * curl.dot(&axis));
-        q.inverse_transform_vector(&turning)
+        curl * 0.5
+    }
+
+    /// Angular velocity of a sphere less that of a slender body (rad/ns, body axes).
+    pub(crate) fn turning_of_sphere(&self, q: UnitQuaternion) -> Vector3 {
+        q.inverse_transform_vector(&self.rotation()) - self.turning(q)
+    }
+
+    /// Velocity at the end of an arm (body axes) relative to its start, less the velocity of an arm that turns with a slender
+    /// body (nm/ns, body axes).
+    pub(crate) fn along_arm(&self, q: UnitQuaternion, arm: &Vector3) -> Vector3 {
+        let velocity = self.gradient * (q * arm);
+        q.inverse_transform_vector(&velocity) - self.turning(q).cross(arm)
     }
 }

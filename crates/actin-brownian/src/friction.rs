@@ -1,3 +1,4 @@
+use crate::Flow;
 use actin_mechanics::{
     Coordinates, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3, Vectors,
 };
@@ -30,6 +31,9 @@ pub struct TurnDashpot {
     pub frame: usize,
     /// Friction about each axis of the frame (pN nm ns), at least 0.
     pub friction: Vector3,
+    /// `true` for a sphere, which turns with the vorticity of a flow. Other bodies turn as slender bodies along the third
+    /// axis of the frame.
+    pub is_sphere: bool,
 }
 
 impl Dashpot {
@@ -103,10 +107,11 @@ impl Velocities {
 }
 
 impl Friction {
-    /// Adds the loads of the dashpots at selected frames.
+    /// Adds the loads of the dashpots at selected frames, for velocities relative to the fluid at the points and to slender
+    /// bodies in it.
     pub(crate) fn add_loads(
         &self,
-        (state, velocities): (&State, &Velocities),
+        (state, velocities, flow): (&State, &Velocities, &Flow),
         has_frame: impl Fn(usize) -> bool,
         loads: &mut Loads,
     ) {
@@ -116,11 +121,17 @@ impl Friction {
             let of_points = |(i, weight)| velocities.points.get(i) * weight;
             let v: Vector3 = dashpot.points().map(of_points).sum();
             let omega = velocities.frames.get(dashpot.frame);
-            let u = q.inverse_transform_vector(&v) + omega.cross(&dashpot.arm);
+            let mut u = q.inverse_transform_vector(&v);
+            if dashpot.has_arm() {
+                u += omega.cross(&dashpot.arm) - flow.along_arm(q, &dashpot.arm);
+            }
             dashpot.add_force(state, -dashpot.friction.component_mul(&u), loads);
         }
         for turn in self.turns.iter().filter(|turn| has_frame(turn.frame)) {
-            let omega = velocities.frames.get(turn.frame);
+            let mut omega = velocities.frames.get(turn.frame);
+            if turn.is_sphere {
+                omega -= flow.turning_of_sphere(state.frames.orientation.get(turn.frame));
+            }
             let torque = -turn.friction.component_mul(&omega);
             loads.torque.add(turn.frame, torque);
         }

@@ -1,5 +1,5 @@
 use crate::friction::{ScaledFriction, Velocities};
-use crate::{BrownianError, Friction};
+use crate::{BrownianError, Flow, Friction};
 use actin_equilibrium::{ImplicitSolver, Layout};
 use actin_integrate::{Noise, StepFailure, Stepper};
 use actin_mechanics::{
@@ -80,8 +80,11 @@ impl Langevin {
             self.velocities.frames.set(i, omega);
         }
         self.loads.clear();
-        self.friction
-            .add_loads((state, &self.velocities), |_| true, &mut self.loads);
+        self.friction.add_loads(
+            (state, &self.velocities, &Flow::default()),
+            |_| true,
+            &mut self.loads,
+        );
         if self.thermal_energy > 0.0 {
             let strength = (2.0 * self.thermal_energy / h).sqrt();
             self.noise.draw_stream(step, (1.0, 1.0));

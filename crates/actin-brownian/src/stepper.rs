@@ -323,7 +323,8 @@ impl Brownian {
             let state = system.state();
             self.find_velocities(state, h);
             self.residual.clone_from(&self.loads);
-            let at = (state, &self.velocities);
+            let flow = self.flow.between(&self.start, state);
+            let at = (state, &self.velocities, &flow);
             self.friction.add_loads(at, |_| true, &mut self.residual);
             let noise = (&self.noise.points, &self.noise.frames);
             self.friction

@@ -178,9 +178,11 @@ impl Arrangement {
         free: &FreeSpace<'_>,
         random: &mut ChaCha8Rng,
     ) -> Result<Filament, Obstacle> {
+        // The length does not depend on the trials, which short filaments pass more often.
+        let built = self.of_random_length(self.filament().clone(), random);
         let mut obstacle = Obstacle::Walls;
         for _ in 0..MOST_TRIALS {
-            let filament = self.random(self.filament().clone(), random);
+            let filament = self.random(built.clone(), random);
             let axis = FilamentAxis::new(&filament);
             if !free.is_within_walls(&axis) {
                 continue;
@@ -214,20 +216,28 @@ impl Arrangement {
         SceneProblem::new(format!("arrangements[{k}].{key}"), value, rule)
     }
 
+    fn of_random_length(&self, mut filament: Filament, random: &mut ChaCha8Rng) -> Filament {
+        if let Self::Random {
+            lengths_nm: Some([low, high]),
+            ..
+        } = self
+            && let Some(last) = filament.sections.last_mut()
+        {
+            last.end_at(low + (high - low) * unit(random));
+        }
+        filament
+    }
+
     fn random(&self, mut filament: Filament, random: &mut ChaCha8Rng) -> Filament {
         let Self::Random {
             box_nm,
             centre_nm,
             orientation,
-            lengths_nm,
             ..
         } = self
         else {
             return filament;
         };
-        if let (Some([low, high]), Some(last)) = (lengths_nm, filament.sections.last_mut()) {
-            last.end_at(low + (high - low) * unit(random));
-        }
         filament.direction = orientation.draw(&filament, random).into();
         filament.roll_deg = 360.0 * unit(random);
         filament.at_nm = [0.0; 3];

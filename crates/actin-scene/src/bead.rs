@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Spherical bead attached rigidly to a filament. A linker between the same site and an anchor is an optical trap.
 ///
 /// The centre has the friction `6 pi eta r`, and rotations have `8 pi eta r^3`. `eta` is the viscosity of the fluid,
-/// and `r` the radius. The friction of the filament is added. A bead has no mass and no contacts, and does not change
+/// and `r` the radius. In a shear flow the bead turns with half of the vorticity. The friction of the filament is added. A bead has no mass and no contacts, and does not change
 /// equilibria.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Bead {

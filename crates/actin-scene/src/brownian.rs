@@ -34,7 +34,7 @@ pub struct Brownian {
     /// interval between records.
     ///
     /// Default for rods at a temperature: the bending relaxation time of a segment, 180 ns for 40 nm. Means are
-    /// accurate to 1 % for segments below 1/50 of the persistence length, energies of stiff linkers to 6 %. Longer
+    /// accurate to 1 % for segments below 1/50 of the persistence length. Contacts need shorter steps (`contact-steps`). Longer
     /// segments, stages, loads, rates, shear or records can require shorter steps. Default for monomers with `QuasiHarmonic` interfaces: the step of segments of a fifth of the filament's length, at most 40
     /// nm. Default for other monomers at a temperature and with `repulsion`: 50 times the fastest relaxation
     /// time. Strains then have their thermal energy to 1 % on segments of 20 nm or more. Default at temperature

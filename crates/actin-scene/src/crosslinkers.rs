@@ -30,7 +30,7 @@ pub(crate) struct Crosslinkers {
     /// Rest length; at least 0.
     #[serde(default)]
     pub rest_length_nm: f64,
-    /// Rate at which a free crosslinker binds one hand to a random free site of all filaments; positive.
+    /// Rate at which a free crosslinker binds one hand to a random site of all filaments, if that is free; positive.
     pub attach_per_ns: f64,
     /// Rate at which the second hand binds to each free site of another filament within reach, without extension;
     /// positive. The rate decreases with the energy of the linker, see `Roaming`.

@@ -45,8 +45,8 @@ pub struct Linker {
     /// `steps`, and two sites apart in different monomers or segments. For linkers that roam, see `Crosslinkers`.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub tilt_pn_nm: f64,
-    /// Stiffness `k` against twist: the energy is `k (1 - cos b)` for the change `b` of the angle between the two
-    /// filaments, seen along the linker as built; at least 0. Requires the same as `tilt_pn_nm`.
+    /// Stiffness `k` against twist: the energy is `k (1 - cos b)` for the angle `b` between two directions across the linker,
+    /// one in each monomer or segment, which are parallel as built; at least 0. Requires the same as `tilt_pn_nm`.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub twist_pn_nm: f64,
     /// Rates of breaking, forming and stepping; by default the linker is permanent.

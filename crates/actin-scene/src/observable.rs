@@ -29,7 +29,7 @@ pub enum Observable {
     },
     /// Reaction force and torque of a clamp on the filament: `reaction[0]_start_force_x_pn`,
     /// `reaction[0]_start_torque_x_pn_nm`. The torque is about the clamped point. Forces along free directions
-    /// are zero.
+    /// are zero. Drag and inertia of the held bodies are not included, here and in the work.
     EndReaction {
         /// Index of the filament.
         #[serde(default)]

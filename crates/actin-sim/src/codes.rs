@@ -26,6 +26,8 @@ pub(crate) const ENERGY_BALANCE: &str = "energy-balance";
 pub(crate) const LINKER_RATES: &str = "linker-rates";
 /// Time steps are longer than slow motion allows.
 pub(crate) const LONG_STEPS: &str = "long-steps";
+/// Contacts act late in the time steps.
+pub(crate) const CONTACT_STEPS: &str = "contact-steps";
 /// Energies differ in steps of half the length.
 pub(crate) const STEP_ERROR: &str = "step-error";
 /// Drag is strong within a time step.

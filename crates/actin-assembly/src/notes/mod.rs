@@ -10,7 +10,8 @@ mod mesh;
 mod softened;
 
 use crate::scene::{
-    AdaptiveResolution, Anchors, Filament, Monomers, Observable, Scene, Task, unset_loads,
+    AdaptiveResolution, Anchors, Filament, Flow, Monomers, Observable, Scene, Setting, Task,
+    unset_loads,
 };
 use crate::{Assembly, InterfaceSampling, Rod, SectionChoice, SectionSpan};
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
@@ -107,10 +108,27 @@ impl Assembly {
             remarks.push(note.to_owned());
             remarks.extend(self.note_on_short_segments(following));
         }
+        let is_reaction = |one: &Observable| matches!(one, Observable::EndReaction { .. });
+        if self.scene.observe.iter().any(is_reaction) && self.has_drag_on_held_bodies() {
+            let note = "reactions do not include the drag on held bodies: half a segment and the end of the filament";
+            remarks.push(note.to_owned());
+        }
         if self.scene.repulsion.is_some() && !self.scene.beads.is_empty() {
             remarks.push("repulsion does not act on beads".to_owned());
         }
         remarks
+    }
+
+    /// Returns `true` if held bodies move relative to a fluid.
+    fn has_drag_on_held_bodies(&self) -> bool {
+        let mut settings = self.scene.path.iter().flat_map(|stage| &stage.set);
+        let is_move = |one: &Setting| matches!(one, Setting::Shift { .. } | Setting::Turn { .. });
+        let moves = settings.any(is_move);
+        match &self.scene.task {
+            Task::Brownian(motion) => moves || motion.flow != Flow::AtRest,
+            Task::Dynamics(motion) => moves && motion.drag.fluid().is_some(),
+            Task::Equilibrium(_) => false,
+        }
     }
 
     /// Returns the notes on this scene before its run.

@@ -154,7 +154,8 @@ impl Brownian {
         self.stresses
             .add_loads(interactions, components, (state, residual));
         residual.add(&self.random);
-        let at = (&self.middle, &self.velocities);
+        let flow = self.flow.between(&self.start, state);
+        let at = (&self.middle, &self.velocities, &flow);
         let has_frame = |i| components.has_frame(i);
         self.friction.add_loads(at, has_frame, residual);
     }

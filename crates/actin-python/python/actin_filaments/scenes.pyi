@@ -179,7 +179,7 @@ class Bead(Part):
     """Spherical bead attached rigidly to a filament. A linker between the same site and an anchor is an optical trap.
 
     The centre has the friction `6 pi eta r`, and rotations have `8 pi eta r^3`. `eta` is the viscosity of the fluid,
-    and `r` the radius. The friction of the filament is added. A bead has no mass and no contacts, and does not change
+    and `r` the radius. In a shear flow the bead turns with half of the vorticity. The friction of the filament is added. A bead has no mass and no contacts, and does not change
     equilibria.
 
     - `radius_nm`: Radius; positive.
@@ -222,7 +222,7 @@ class Brownian(Part):
     interval between records.
 
     Default for rods at a temperature: the bending relaxation time of a segment, 180 ns for 40 nm. Means are
-    accurate to 1 % for segments below 1/50 of the persistence length, energies of stiff linkers to 6 %. Longer
+    accurate to 1 % for segments below 1/50 of the persistence length. Contacts need shorter steps (`contact-steps`). Longer
     segments, stages, loads, rates, shear or records can require shorter steps. Default for monomers with `QuasiHarmonic` interfaces: the step of segments of a fifth of the filament's length, at most 40
     nm. Default for other monomers at a temperature and with `repulsion`: 50 times the fastest relaxation
     time. Strains then have their thermal energy to 1 % on segments of 20 nm or more. Default at temperature
@@ -405,7 +405,7 @@ class Crosslinkers(Part):
 
     In a scene in memory, each crosslinker is a linker with `kinetics`.
 
-    - `attach_per_ns`: Rate at which a free crosslinker binds one hand to a random free site of all filaments; positive.
+    - `attach_per_ns`: Rate at which a free crosslinker binds one hand to a random site of all filaments, if that is free; positive.
     - `averaging_ns`: Averaging time of forces, see `Kinetics`. Default: None.
     - `bind_per_ns`: Rate at which the second hand binds to each free site of another filament within reach, without extension;
     positive. The rate decreases with the energy of the linker, see `Roaming`.
@@ -600,7 +600,7 @@ class EndForce(Part):
 class EndReaction(Part):
     """Reaction force and torque of a clamp on the filament: `reaction[0]_start_force_x_pn`,
     `reaction[0]_start_torque_x_pn_nm`. The torque is about the clamped point. Forces along free directions
-    are zero.
+    are zero. Drag and inertia of the held bodies are not included, here and in the work.
 
     - `end`: End of the filament; it must be clamped.
     - `filament`: Index of the filament. Default: 0.
@@ -974,8 +974,8 @@ class Linker(Part):
     linker and its direction as built, which follows the monomer or segment; at least 0. Requires `to`, no
     `steps`, and two sites apart in different monomers or segments. For linkers that roam, see `Crosslinkers`.
     - `to`: Site at the other end; it must differ from this one.
-    - `twist_pn_nm`: Stiffness `k` against twist: the energy is `k (1 - cos b)` for the change `b` of the angle between the two
-    filaments, seen along the linker as built; at least 0. Requires the same as `tilt_pn_nm`.
+    - `twist_pn_nm`: Stiffness `k` against twist: the energy is `k (1 - cos b)` for the angle `b` between two directions across the linker,
+    one in each monomer or segment, which are parallel as built; at least 0. Requires the same as `tilt_pn_nm`.
     """
     def __init__(
         self,

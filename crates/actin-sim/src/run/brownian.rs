@@ -128,6 +128,7 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
         has_bonds: assembly.counts().bonds > 0,
     });
     check_length(wanted, estimate.longest_sound_step.as_ref())?;
+    estimate.approach_nm = long_steps::approach_of_contacts(assembly, task, estimate.time_step_ns)?;
     let iterations = match motion.thermal {
         None => ITERATIONS_WITHOUT_NOISE,
         Some(_) => ITERATIONS[usize::from(estimate.has_random_stress())],

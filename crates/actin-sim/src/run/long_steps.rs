@@ -13,6 +13,9 @@ const PER_CHANGE: f64 = 100.0;
 /// Largest relative error of slack under loads.
 const TOO_COLD: f64 = 0.01;
 
+/// Mean overshoot of a random walk over a distant threshold, in units of the standard deviation of its steps.
+const OVERSHOOT: f64 = 0.582_6;
+
 /// Number of wavelengths per filament whose bending is resolved, for monomers.
 const FOLLOWED: f64 = 5.0;
 
@@ -120,6 +123,44 @@ fn tension(assembly: &Assembly, filament: usize, length: f64) -> f64 {
             force * of_path * load.factor().largest()
         })
         .sum()
+}
+
+/// Distance (nm) by which filaments come closer to walls and other filaments in steps of `h` (ns) than in short ones; `None`
+/// without contacts or heat.
+///
+/// Contacts have no random stress. A step towards a wall therefore ends at the wall, as in a random walk that stops there.
+/// The mean overshoot of its steps is 0.58 of their standard deviation. This is the standard deviation of a piece that is
+/// stiff within the step, between that of its middle and that of its ends.
+///
+/// A free filament of 200 nm in two segments, between walls 300 nm apart, comes closer by 2.5 +- 1.0, 7.0 +- 1.2 and 9.9 +- 0.9
+/// nm in steps of 1, 2.5 and 6.8 us (3.2, 5.1, 8.4 nm here), from the mean square position of its centre.
+///
+/// # Source
+/// D. Siegmund, Adv. Appl. Probab. 11 (1979) 701.
+pub(super) fn approach_of_contacts(
+    assembly: &Assembly,
+    task: &Task,
+    h: f64,
+) -> Result<Option<f64>, SceneProblem> {
+    let Some(thermal) = task
+        .thermal()
+        .filter(|_| assembly.scene.repulsion.is_some())
+    else {
+        return Ok(None);
+    };
+    let mut largest = 0.0_f64;
+    for (filament, spans) in assembly.filaments.iter().enumerate() {
+        let across = assembly.cylinder(&task.drag, filament)?.across();
+        let rigidities = assembly
+            .rod_model_of(spans.sections.start)
+            .material
+            .rigidities();
+        let bend = rigidities.bend.x.min(rigidities.bend.y);
+        let stiff = 2.0 * (bend * h / across).powf(0.25);
+        let friction = across * stiff.min(assembly.length_of(filament));
+        largest = largest.max((4.0 * thermal.energy_pn_nm() * h / friction).sqrt());
+    }
+    Ok(Some(OVERSHOOT * largest))
 }
 
 /// Largest steps that rates allow (ns).

@@ -28,6 +28,9 @@ const ROUND_OFF: f64 = 1e-12;
 /// Relative error of the recorded drift velocity that gives a warning.
 const RECORDED_DRIFT: f64 = 0.01;
 
+/// Largest approach of contacts (nm) without a warning.
+const LARGEST_APPROACH_NM: f64 = 1.0;
+
 impl Estimate {
     /// Creates the estimate of a motion in steps of at most `largest_ns`, without force evaluations.
     /// The steps divide the duration of `dynamics` and, where this takes few additional steps, the
@@ -59,6 +62,7 @@ impl Estimate {
             record_every_ns,
             force_evaluations: 0,
             longest_sound_step: None,
+            approach_nm: None,
         })
     }
 }
@@ -123,6 +127,7 @@ impl Estimate {
             self.note_on_records(dynamics).map(Note::from),
             (self.note_on_drag(dynamics)).map(|text| Note::warning(codes::STRONG_DRAG, text)),
             (self.note_on_long_steps()).map(|text| Note::warning(codes::LONG_STEPS, text)),
+            (self.note_on_contacts()).map(|text| Note::warning(codes::CONTACT_STEPS, text)),
         ];
         notes.into_iter().flatten().collect()
     }
@@ -166,6 +171,18 @@ impl Estimate {
             let (step, longest) = (self.time_step_ns, longest.ns);
             format!("steps of {step:.1e} ns are longer than the default {longest:.1e} ns: {what}")
         })
+    }
+
+    fn note_on_contacts(&self) -> Option<String> {
+        let approach = self
+            .approach_nm
+            .filter(|approach| *approach > LARGEST_APPROACH_NM)?;
+        let step = self.time_step_ns;
+        Some(format!(
+            "in heat, contacts act late in steps of {step:.1e} ns: filaments come closer to walls and to each other by about \
+             {approach:.1} nm than in short steps, by 1 nm in steps of {:.1e} ns",
+            step / approach.powi(2)
+        ))
     }
 
     fn note_on_step(&self, dynamics: &Dynamics) -> Option<String> {

@@ -32,6 +32,7 @@ fn friction_with(per_length: FrictionPerLength, rod: &RodLayout) -> Friction {
         friction.turns.push(TurnDashpot {
             frame,
             friction: friction_of_turn,
+            is_sphere: false,
         });
     }
     friction
