@@ -26,8 +26,7 @@ pub struct Estimate {
     pub force_evaluations: u64,
     /// Longest accurate step of overdamped motion; `None` for other motion.
     pub longest_sound_step: Option<LongestStep>,
-    /// Distance (nm) by which filaments come closer to walls and each other than in short steps; `None` without contacts
-    /// or heat.
+    /// Distance (nm) by which walls act as if they were farther away; `None` without contacts or heat.
     pub approach_nm: Option<f64>,
 }
 

@@ -6,6 +6,7 @@ use crate::scene::{Dynamics, Scene, SceneProblem, Task};
 use actin_assembly::Note;
 use actin_assembly::whole::to_steps;
 use actin_integrate::Drag;
+use std::f64::consts::SQRT_2;
 
 const DEFAULT_RECORDS: f64 = 100.0;
 
@@ -179,8 +180,9 @@ impl Estimate {
             .filter(|approach| *approach > LARGEST_APPROACH_NM)?;
         let step = self.time_step_ns;
         Some(format!(
-            "in heat, contacts act late in steps of {step:.1e} ns: filaments come closer to walls and to each other by about \
-             {approach:.1} nm than in short steps, by 1 nm in steps of {:.1e} ns",
+            "in heat, contacts act late in steps of {step:.1e} ns: filaments stay at walls as if these were about {approach:.1} \
+             nm farther away, and at each other as if they were {:.1} nm thinner; 1 nm at walls in steps of {:.1e} ns",
+            SQRT_2 * approach,
             step / approach.powi(2)
         ))
     }
