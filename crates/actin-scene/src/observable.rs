@@ -105,7 +105,8 @@ pub enum Observable {
     /// Shape of a buckled filament, from points at equal distances along its centre line:
     /// `buckling[0]_50_points_contour_nm`, `_mean_distance_nm` (from the line through the ends),
     /// `_peak_asymmetry`, `_non_coplanarity`, `_bend`, `_normals_rad_per_nm`, `_supertwist_deg`. Defined at
-    /// `actin_sim::shape::Buckle`.
+    /// `actin_sim::shape::Buckle`. The centre line is straight between nodes or monomers, or a cubic spline if
+    /// they are not more than the points.
     Buckling {
         /// Index of the filament.
         #[serde(default)]
