@@ -79,7 +79,8 @@ pub enum Observable {
     /// `_torque_pn_nm`. Without `at_nm`, extreme values along the filament and their arc lengths, such as
     /// `internal_load[0]_largest_tension_pn` and `internal_load[0]_largest_tension_at_nm`: `largest_tension`,
     /// `smallest_tension`, `largest_shear`, `largest_moment` (magnitudes), `largest_torque` (largest magnitude, with
-    /// sign).
+    /// sign). Cross-sections between held bodies have the load of the clamp, those between the last two monomers of
+    /// a free end the load before them.
     InternalLoad {
         /// Index of the filament.
         #[serde(default)]

@@ -55,7 +55,7 @@ pub fn profile_of(assembly: &Assembly, filament: usize, state: &State) -> Vec<Pr
             curvature_rad_per_nm: curvatures[i].x.hypot(curvatures[i].y),
             twist_rad_per_nm: curvatures[i].z,
             energy_per_length_pn: energies[i],
-            load: loads.within(ribbon.s_nm[i]),
+            load: loads.at(ribbon.s_nm[i]),
             is_ellipsoids: ribbon.between_monomers[i],
         })
         .collect()
