@@ -102,6 +102,27 @@ fn rods_are_as_long_as_the_monomers() {
 /// Position Verlet at 0.9 of the stability limit agrees with half of the default step within 0.1 %.
 /// The best candidate resolves every monomer or has a larger error.
 #[test]
+fn headings_are_whole_names() {
+    let observed = CANTILEVER.replace("task:", "observe: [Contour()], task:");
+    let found = traded(&observed, |options| options.load_shares.clear());
+    let table = found.to_string();
+    let mut lines = table.lines().map(str::trim_end);
+    let heading = lines.find(|line| line.starts_with("errors in %")).unwrap();
+    let names = ["length_nm", "gyration_radius_nm", "largest_distance_nm"];
+    for name in names.map(|name| format!(" contour[0]_{name} ")) {
+        assert!(heading.contains(&name), "{heading}");
+    }
+    // Errors end below the ends of their names.
+    let after = heading.find(" contour[0]_length_nm").unwrap() + " contour[0]_length_nm".len();
+    let row = lines.next().unwrap();
+    assert!(
+        row[..after].ends_with(|last: char| last.is_ascii_digit()),
+        "{row}"
+    );
+    assert!(row[after..].starts_with(' '), "{row}");
+}
+
+#[test]
 fn candidates_of_motions_include_longer_steps() {
     let found = traded(SWINGING, |_| {});
     let best = &found.candidates[found.best.unwrap()];

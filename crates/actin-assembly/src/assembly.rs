@@ -212,7 +212,7 @@ impl Assembly {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub(crate) fn tip_points_of(&self, filament: usize, end: End) -> Range<usize> {
+    pub fn tip_points_of(&self, filament: usize, end: End) -> Range<usize> {
         let section = self.written(filament).end_index(end);
         self.sections_of(filament)[section].tip_points(end)
     }

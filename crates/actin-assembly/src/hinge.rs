@@ -55,6 +55,17 @@ impl SecondOrder for Hinge {
 }
 
 impl Assembly {
+    /// Returns the frame of the cross-section at the end of a rod: held by a wall, or turning under a
+    /// hinge or an end couple. `None` for other ends.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn end_frame(&self, filament: usize, end: End) -> Option<usize> {
+        let first = self.filaments[filament].sections.start;
+        let rod = self.rod_of(first + self.written(filament).end_index(end))?;
+        rod.layout.wall(end)
+    }
+
     /// Returns the held frame of a hinged end and the frame of its cross-section; `None` for other
     /// ends.
     pub fn hinge_frames(&self, filament: usize, end: End) -> Option<[usize; 2]> {
@@ -62,10 +73,7 @@ impl Assembly {
         if self.held.fixed_at(filament, end) == Some(clamp) {
             return None;
         }
-        let first = self.filaments[filament].sections.start;
-        let rod = self.rod_of(first + self.written(filament).end_index(end))?;
-        let wall = rod.layout.wall(end)?;
         let behind = *self.clamps[clamp].frames.first()?;
-        Some([behind, wall])
+        Some([behind, self.end_frame(filament, end)?])
     }
 }

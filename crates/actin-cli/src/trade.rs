@@ -17,6 +17,7 @@ pub(crate) struct TradeArguments {
     source: SceneArguments,
     /// Compared quantities, separated by commas: tip, height, end-force, end-couple, energy, curvature, linker-force,
     /// or the prefix of a column of observables.csv. By default the observables of the scene and the tip displacements.
+    /// Arc lengths of extreme values are not compared.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
     /// Largest accepted relative error.

@@ -1,6 +1,6 @@
 //! Reference curve of a filament, of pieces of constant curvature. It starts at the origin along lab +z.
 
-use super::{Filament, Shape};
+use super::{Filament, Shape, Spline, SplineEnds};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use std::f64::consts::TAU;
 
@@ -136,7 +136,8 @@ impl Curve {
 
     /// Natural cubic spline with rotation-minimising frames.
     fn through(points: &[[f64; 3]]) -> Self {
-        let spline = Spline::through(points);
+        let points: Vec<Vector3> = points.iter().copied().map(Vector3::from).collect();
+        let spline = Spline::new(&points, SplineEnds::Natural);
         let mut pieces: Vec<Piece> = Vec::new();
         let (mut s, mut before) = (0.0, spline.at(0, 0.0));
         for k in 0..spline.chords.len() {
@@ -239,57 +240,6 @@ pub fn left_jacobian_product(theta: Vector3, v: Vector3) -> Vector3 {
     v * (sin / angle)
         + axis * (axis.dot(&v) * (1.0 - sin / angle))
         + axis.cross(&v) * ((1.0 - cos) / angle)
-}
-
-/// Natural cubic spline, parametrised by chord length.
-struct Spline {
-    points: Vec<Vector3>,
-    chords: Vec<f64>,
-    /// Second derivatives at the points (1/nm).
-    second: Vec<Vector3>,
-}
-
-impl Spline {
-    fn through(points: &[[f64; 3]]) -> Self {
-        let points: Vec<Vector3> = points.iter().copied().map(Vector3::from).collect();
-        let chords: Vec<f64> = points.windows(2).map(|p| (p[1] - p[0]).norm()).collect();
-        let slopes = points
-            .windows(2)
-            .zip(&chords)
-            .map(|(p, h)| (p[1] - p[0]) / *h);
-        let slopes: Vec<Vector3> = slopes.collect();
-        // Thomas algorithm for `h' m' + 2 (h' + h) m + h m'' = 6 (slope - slope')` with zero second derivatives at
-        // the ends.
-        let n = points.len();
-        let (mut above, mut right) = (vec![0.0; n], vec![Vector3::zeros(); n]);
-        for i in 1..n - 1 {
-            let (before, after) = (chords[i - 1], chords[i]);
-            let pivot = 2.0 * (before + after) - before * above[i - 1];
-            above[i] = after / pivot;
-            right[i] = (6.0 * (slopes[i] - slopes[i - 1]) - before * right[i - 1]) / pivot;
-        }
-        let mut second = vec![Vector3::zeros(); n];
-        for i in (1..n - 1).rev() {
-            second[i] = right[i] - above[i] * second[i + 1];
-        }
-        Self {
-            points,
-            chords,
-            second,
-        }
-    }
-
-    /// Position and derivative with respect to chord length, at a fraction of chord `k`.
-    fn at(&self, k: usize, share: f64) -> (Vector3, Vector3) {
-        let h = self.chords[k];
-        let (a, b) = (1.0 - share, share);
-        let (from, to) = (self.points[k], self.points[k + 1]);
-        let (m, n) = (self.second[k], self.second[k + 1]);
-        let place = from * a + to * b + ((a * a * a - a) * m + (b * b * b - b) * n) * (h * h / 6.0);
-        let slope =
-            (to - from) / h + ((1.0 - 3.0 * a * a) * m + (3.0 * b * b - 1.0) * n) * (h / 6.0);
-        (place, slope)
-    }
 }
 
 #[cfg(test)]

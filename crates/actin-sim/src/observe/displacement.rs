@@ -25,7 +25,7 @@ pub(super) fn value(
 ) -> f64 {
     let here = match of {
         Point::Tip => view.assembly.tip_of(filament, view.state, End::End),
-        Point::Centre => chain::centre(view.ribbon(filament)),
+        Point::Centre => chain::centre(&chain::edges(view, filament)),
     };
     let Some(lag) = lag_ns else {
         let first = *past.first.get_or_insert(here.into());

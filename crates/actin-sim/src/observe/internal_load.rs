@@ -75,11 +75,11 @@ pub(super) fn values(view: &View<'_>, filament: usize, at_nm: Option<f64>) -> Ve
         let SectionLoad {
             force_pn,
             couple_pn_nm,
-        } = loads.within(at);
+        } = loads.at(at);
         return force_pn.iter().chain(&couple_pn_nm).copied().collect();
     }
     let places = view.ribbon(filament).s_nm.iter();
-    let local: Vec<(f64, SectionLoad)> = places.map(|&s| (s, loads.within(s))).collect();
+    let local: Vec<(f64, SectionLoad)> = places.map(|&s| (s, loads.at(s))).collect();
     let extremes = EXTREMES.iter().flat_map(|Extreme { value, rank, .. }| {
         let rank = |one: &(f64, SectionLoad)| rank(value(&one.1));
         let extreme = local.iter().max_by(|a, b| rank(a).total_cmp(&rank(b)));

@@ -1,6 +1,6 @@
 //! Order, size, connections, linker forces and virial of all filaments.
 
-use super::{Checked, RecordTimes, View};
+use super::{Checked, RecordTimes, View, chain};
 use crate::codes;
 use crate::loads::loads_of;
 use crate::scene::{Factor, Scene, Setting, lowest_joined};
@@ -211,9 +211,9 @@ impl Edges {
         let (mut length, mut tangent, mut place) = (0.0, Vector3::zeros(), Vector3::zeros());
         let (mut tensor, mut squares) = (Matrix3::zeros(), Matrix3::zeros());
         for filament in 0..view.assembly.filaments.len() {
-            for pair in view.ribbon(filament).points_nm.windows(2) {
-                let edge = pair[1] - pair[0];
-                let (weight, middle) = (edge.norm(), 0.5 * (pair[0] + pair[1]));
+            for (_, [from, to]) in chain::edges(view, filament) {
+                let edge = to - from;
+                let (weight, middle) = (edge.norm(), 0.5 * (from + to));
                 length += weight;
                 tangent += edge;
                 let outer = edge * edge.transpose();

@@ -31,10 +31,10 @@ impl Axis {
     pub(crate) fn from_ribbon(ribbon: &Ribbon) -> Self {
         let frames = ribbon.frames.iter().copied();
         let inside = ribbon.frame_s_nm.iter().copied().zip(frames);
-        let mut frames: Vec<_> = ribbon.ends[0]
+        let mut frames: Vec<_> = ribbon.outermost[0]
             .into_iter()
             .chain(inside)
-            .chain(ribbon.ends[1])
+            .chain(ribbon.outermost[1])
             .collect();
         frames.dedup_by(|b, a| (b.0 - a.0).abs() < SAME_PLACE_NM);
         let mut axis = Self {

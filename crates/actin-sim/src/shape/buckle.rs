@@ -4,11 +4,18 @@
 //! Definitions of simularium/subcell-pipeline (Allen Institute for Cell Science, 2024),
 //! reimplemented.
 
+use crate::scene::{Spline, SplineEnds};
 use actin_mechanics::Vector3;
 use nalgebra::Matrix3;
 
 /// Length (nm) below which a vector has no direction.
 const LEAST_NM: f64 = 1e-6;
+
+/// Sine of the angle between edges below which they have no normal: far above round-off of positions.
+const LEAST_SINE: f64 = 1e-9;
+
+/// Pieces of a spline per point. Their chords change angles between points by less than 1e-3.
+const PIECES: usize = 16;
 
 /// Measures of a centre line that has buckled between its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +33,7 @@ pub(crate) struct Buckle {
     /// Mean of `1 - cos` of the angle between successive edges.
     pub bend: f64,
     /// Sum of the absolute angles between successive normals (cross products of successive edges),
-    /// over the length (rad/nm).
+    /// over the length (rad/nm). Parallel edges have no normal.
     pub normals_rad_per_nm: f64,
     /// Supertwist (deg): angle about the axis between the first edge and the reversed last edge,
     /// with the sign of most rotations from edge to edge. Positive for right-handed coils.
@@ -62,11 +69,31 @@ impl Buckle {
     }
 }
 
+/// Returns `count` points at equal distances along a centre line, including both ends.
+///
+/// The line is the polyline through `vertices` or, with at most `count` of them, a cubic spline. On
+/// a polyline several points would lie on one straight edge.
+///
+/// # Panics
+/// If there are fewer than two vertices or points.
+pub(crate) fn resampled(vertices: &[Vector3], count: usize) -> Vec<Vector3> {
+    if vertices.len() > count {
+        return equally_spaced(vertices, count);
+    }
+    let spline = Spline::new(vertices, SplineEnds::NotAKnot);
+    let chords = vertices.len() - 1;
+    let pieces = PIECES * count.div_ceil(chords);
+    let share = |i: usize| (i % pieces) as f64 / pieces as f64;
+    let inner = (0..chords * pieces).map(|i| spline.at(i / pieces, share(i)).0);
+    let fine: Vec<Vector3> = inner.chain([vertices[chords]]).collect();
+    equally_spaced(&fine, count)
+}
+
 /// Returns `count` points of a polyline at equal distances along it, including both ends.
 ///
 /// # Panics
 /// If `points` or `count` has fewer than two points.
-pub(crate) fn equally_spaced(points: &[Vector3], count: usize) -> Vec<Vector3> {
+fn equally_spaced(points: &[Vector3], count: usize) -> Vec<Vector3> {
     assert!(
         points.len() > 1 && count > 1,
         "a polyline needs at least two points"
@@ -128,10 +155,11 @@ fn bend(edges: &[Vector3]) -> f64 {
 }
 
 fn turn_of_normals(edges: &[Vector3]) -> f64 {
-    let normals: Vec<Vector3> = edges
-        .windows(2)
-        .map(|pair| pair[0].cross(&pair[1]))
-        .collect();
+    let pairs = edges.windows(2).filter_map(|pair| {
+        let normal = pair[0].cross(&pair[1]);
+        normal.try_normalize(LEAST_SINE * pair[0].norm() * pair[1].norm())
+    });
+    let normals: Vec<Vector3> = pairs.collect();
     normals.windows(2).map(|pair| pair[0].angle(&pair[1])).sum()
 }
 

@@ -14,8 +14,7 @@ mod tests;
 mod twist;
 mod writhe;
 
-pub(crate) use buckle::Buckle;
-pub(crate) use buckle::equally_spaced;
+pub(crate) use buckle::{Buckle, resampled};
 pub use linking::link;
 pub(crate) use linking::{WHOLE, link_is_unknown};
 pub(crate) use profile::energy_per_length;

@@ -31,7 +31,7 @@ pub struct ProfilePoint {
 /// For rods, curvature and twist come from the bending elements. For monomers they come from the
 /// rotation between neighbouring monomers without the rotation of the helix, averaged over
 /// neighbouring pairs with weights 1/4, 1/2, 1/4 to remove the alternation of the strands. An end
-/// without bending repeats the adjacent value.
+/// without a cross-section of its own repeats the adjacent value.
 ///
 /// Energies of sections and junctions are spread evenly over the arc length of each element, which
 /// conserves their sum. Loads and linkers are not included.
@@ -55,7 +55,7 @@ pub fn profile_of(assembly: &Assembly, filament: usize, state: &State) -> Vec<Pr
             curvature_rad_per_nm: curvatures[i].x.hypot(curvatures[i].y),
             twist_rad_per_nm: curvatures[i].z,
             energy_per_length_pn: energies[i],
-            load: loads.within(ribbon.s_nm[i]),
+            load: loads.at(ribbon.s_nm[i]),
             is_ellipsoids: ribbon.between_monomers[i],
         })
         .collect()
@@ -71,8 +71,8 @@ impl Ribbon {
         let held = |end: Option<(f64, UnitQuaternion)>, i: usize| {
             end.filter(|(s_nm, _)| (s_nm - self.frame_s_nm[i]).abs() > SAME_PLACE_NM)
         };
-        let first = held(self.ends[0], 0).map(|wall| bend(wall, frame(0)));
-        let last = held(self.ends[1], n - 1).map(|wall| bend(frame(n - 1), wall));
+        let first = held(self.outermost[0], 0).map(|wall| bend(wall, frame(0)));
+        let last = held(self.outermost[1], n - 1).map(|wall| bend(frame(n - 1), wall));
         let beside = |k: Option<&Vector3>| k.copied().unwrap_or_default();
         std::iter::once(first.unwrap_or_else(|| beside(smooth.first())))
             .chain(smooth.iter().copied())

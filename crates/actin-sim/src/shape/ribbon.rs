@@ -47,8 +47,11 @@ pub struct Ribbon {
     /// Outermost held frames at start and end in the same axes, with their arc lengths at rest
     /// (nm); `None` at a free end.
     pub ends: [Option<(f64, UnitQuaternion)>; 2],
-    /// Held frame and cross-section of each hinged end, in the same axes.
-    hinges: [Option<[UnitQuaternion; 2]>; 2],
+    /// Outermost frames in the same way, also of ends that turn: the cross-section of a rod under a
+    /// hinge or an end couple.
+    pub(super) outermost: [Option<(f64, UnitQuaternion)>; 2],
+    /// Held frame of each hinged end, in the same axes.
+    hinges: [Option<UnitQuaternion>; 2],
     /// Unit tangents at the outermost held frames as built; `None` at an end that rotates freely.
     built: [Option<Vector3>; 2],
     /// Distance of each vertex from the axis as built (nm).
@@ -73,7 +76,8 @@ impl Ribbon {
             frame_s_nm: Vec::new(),
             frames: Vec::new(),
             ends: ENDS.map(|end| held_frame(assembly, filament, state, end)),
-            hinges: ENDS.map(|end| hinge_frames(assembly, filament, state, end)),
+            outermost: ENDS.map(|end| outermost_frame(assembly, filament, state, end)),
+            hinges: ENDS.map(|end| hinge_frame(assembly, filament, state, end)),
             built: ENDS.map(|end| built_axis(assembly, filament, end)),
             distance_nm: Vec::new(),
         };
@@ -126,13 +130,16 @@ impl Ribbon {
             .collect()
     }
 
-    /// Frame and unit vector of the straight extension of either end: of the held frame, or of the
-    /// last edge at a free end.
+    /// Frame and unit vector of the straight extension of either end: of the held frame, or along
+    /// the last edge at an end that turns.
     fn extensions(&self, tangents: &[Vector3]) -> [(UnitQuaternion, Vector3); 2] {
         let free = [0, self.frames.len() - 1];
         [0, 1].map(|k| match self.ends[k] {
             Some((_, q)) => (q, q * Vector3::z()),
-            None => (self.frames[free[k]], tangents[free[k]]),
+            None => (
+                self.outermost[k].map_or(self.frames[free[k]], |(_, q)| q),
+                tangents[free[k]],
+            ),
         })
     }
 
@@ -153,18 +160,15 @@ impl Ribbon {
         std::iter::once(first).chain(inside).chain([last]).unzip()
     }
 
-    /// Frames and unit vectors including the joints of hinges: the cross-section along the last
-    /// edge, then the held frame of the spring. `None` if an end is free.
+    /// Frames and unit vectors including the joints of hinges: after the cross-section the held
+    /// frame of the spring. `None` if an end is free.
     pub(super) fn held_edges(&self) -> Option<(Vec<UnitQuaternion>, Vec<Vector3>)> {
         let (mut frames, mut tangents) = self.edges();
         for k in [0, 1] {
             if self.ends[k].is_some() {
                 continue;
             }
-            let [held, cross_section] = self.hinges[k]?;
-            // Replaces the extension of a free end, and extends beyond it.
-            let at = k * (frames.len() - 1);
-            frames[at] = cross_section;
+            let held = self.hinges[k]?;
             frames.insert(k * frames.len(), held);
             tangents.insert(k * tangents.len(), held * Vector3::z());
         }
@@ -234,14 +238,14 @@ pub(crate) fn from_rest(assembly: &Assembly, state: &State, i: usize) -> UnitQua
     turned * span.frame_at(assembly.frames[i].s_nm)
 }
 
-fn hinge_frames(
+fn hinge_frame(
     assembly: &Assembly,
     filament: usize,
     state: &State,
     end: End,
-) -> Option<[UnitQuaternion; 2]> {
-    let frames = assembly.hinge_frames(filament, end)?;
-    Some(frames.map(|frame| from_rest(assembly, state, frame)))
+) -> Option<UnitQuaternion> {
+    let [held, _] = assembly.hinge_frames(filament, end)?;
+    Some(from_rest(assembly, state, held))
 }
 
 fn held_frame(
@@ -254,6 +258,19 @@ fn held_frame(
     let frame = assembly.clamps[clamp].outermost_frame(end)?;
     let s_nm = assembly.frames[frame].s_nm;
     Some((s_nm, from_rest(assembly, state, frame)))
+}
+
+fn outermost_frame(
+    assembly: &Assembly,
+    filament: usize,
+    state: &State,
+    end: End,
+) -> Option<(f64, UnitQuaternion)> {
+    held_frame(assembly, filament, state, end).or_else(|| {
+        let frame = assembly.end_frame(filament, end)?;
+        let s_nm = assembly.frames[frame].s_nm;
+        Some((s_nm, from_rest(assembly, state, frame)))
+    })
 }
 
 fn built_axis(assembly: &Assembly, filament: usize, end: End) -> Option<Vector3> {

@@ -41,7 +41,7 @@ pub enum Measure {
     Curvature(Option<f64>),
     /// Force of every linker, or of one linker (pN).
     LinkerForce(Option<usize>),
-    /// Columns of `observables.csv` with this prefix.
+    /// Columns of `observables.csv` with this prefix, without the arc lengths of extreme values.
     Observable(String),
 }
 
@@ -373,6 +373,7 @@ fn moments(item: &Item) -> [Item; 2] {
 fn by_default(assembly: &Assembly) -> Vec<Measure> {
     let mut measures: Vec<Measure> = observed_columns(assembly)
         .iter()
+        .filter(|column| !is_place(column))
         .map(|column| Measure::Observable(column_stem(column).to_owned()))
         .collect();
     measures.dedup();
@@ -453,7 +454,7 @@ fn of_clamps(
 fn columns(all: &[String], name: &str) -> Vec<Item> {
     let mut items: Vec<Item> = Vec::new();
     for (i, column) in all.iter().enumerate() {
-        if !column.starts_with(name) {
+        if !column.starts_with(name) || is_place(column) {
             continue;
         }
         let stem = column_stem(column);
@@ -478,6 +479,11 @@ fn columns(all: &[String], name: &str) -> Vec<Item> {
         }
     }
     items
+}
+
+/// Returns true for arc lengths of extreme values, which may jump between equal extremes.
+fn is_place(column: &str) -> bool {
+    column.ends_with("_at_nm")
 }
 
 /// Returns the name of a column without the component of a vector and its unit.
@@ -544,4 +550,32 @@ fn free_axis(scene: &Scene) -> Option<Vector3> {
     let is_free =
         !strong.is_empty() && strong.iter().all(lies_along) && scene.linkers.iter().all(is_weak);
     is_free.then_some(axis)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_of_extremes_are_not_compared() {
+        let text = "Scene(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: (1.0, 0.0, 0.0))],
+            observe: [InternalLoad(), InternalLoad(at_nm: 50.0)],
+            task: Equilibrium(),
+        )";
+        let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+        for measures in [
+            vec![],
+            vec![Measure::Observable("internal_load".to_owned())],
+        ] {
+            let items = Measurer::new(&assembly, &measures).unwrap().items;
+            let extremes = items.iter().filter(|item| item.name.contains("est_"));
+            assert_eq!(extremes.count(), 5, "{items:?}");
+            assert!(items.iter().all(|item| !item.name.ends_with("_at_nm")));
+        }
+        let place = Measure::Observable("internal_load[0]_largest_moment_at_nm".to_owned());
+        assert!(Measurer::new(&assembly, &[place]).is_err());
+    }
 }

@@ -7,6 +7,9 @@ const MOST_COLUMNS: usize = 8;
 
 const NAME: usize = 60;
 
+/// Smallest width of a column of errors.
+const ERROR: usize = 13;
+
 impl Trade {
     /// Returns the candidates as CSV with one row each.
     ///
@@ -68,7 +71,7 @@ impl fmt::Display for Trade {
         write!(f, "{:NAME$}{:>9}{:>8}", "errors in %", "time", "faster")?;
         let columns = self.columns();
         for (name, _) in &columns {
-            write!(f, "{name:>13.12}")?;
+            write!(f, "{name:>0$}", width(name))?;
         }
         writeln!(f, "   worst")?;
         for (i, candidate) in self.candidates.iter().enumerate() {
@@ -80,7 +83,7 @@ impl fmt::Display for Trade {
                 "{:NAME$}{:17}",
                 "scatter of filaments with 64 sampled bonds", ""
             )?;
-            write_errors(f, &shown(&columns, scatter, &[]))?;
+            write_errors(f, &columns, (scatter, &[]))?;
             writeln!(f)?;
         }
         for left in &self.left_out {
@@ -118,7 +121,7 @@ impl Trade {
                 f,
                 "warning: the error of the reference itself is unknown or exceeds a third of the wanted error:"
             )?;
-            write_errors(f, &shown(&self.columns(), &reference.own_errors, &[]))?;
+            write_errors(f, &self.columns(), (&reference.own_errors, &[]))?;
             writeln!(f)?;
         }
         Ok(())
@@ -155,7 +158,7 @@ impl Trade {
         }
         let faster = self.usual_s() / one.wall_s;
         write!(f, "{name:NAME$}{:>9}{faster:>8.2}", time(one.wall_s))?;
-        write_errors(f, &shown(columns, &one.errors, &one.standard_errors))?;
+        write_errors(f, columns, (&one.errors, &one.standard_errors))?;
         write!(f, "   {:.2}", 100.0 * one.error())?;
         for (share, error) in &one.at_loads {
             write!(f, ", {:.2} at {share} of the loads", 100.0 * error)?;
@@ -195,14 +198,27 @@ fn shown(
     columns.iter().map(|(_, items)| worst(items)).collect()
 }
 
-fn write_errors(f: &mut fmt::Formatter<'_>, errors: &[Option<(f64, f64)>]) -> fmt::Result {
-    errors.iter().try_for_each(|error| match error {
-        Some((error, standard)) if *standard > 0.0 => {
-            let both = format!("{:.1} +- {:.1}", 100.0 * error, 100.0 * standard);
-            write!(f, "{both:>13}")
-        }
-        Some((error, _)) => write!(f, "{:>13.2}", 100.0 * error),
-        None => write!(f, "{:>13}", "-"),
+/// Width of a column: one space and its name, or an error.
+fn width(name: &str) -> usize {
+    ERROR.max(name.len() + 1)
+}
+
+fn write_errors(
+    f: &mut fmt::Formatter<'_>,
+    columns: &[Column],
+    (errors, standard_errors): (&[Option<f64>], &[f64]),
+) -> fmt::Result {
+    let shown = shown(columns, errors, standard_errors);
+    let mut cells = columns.iter().zip(shown);
+    cells.try_for_each(|((name, _), error)| {
+        let text = match error {
+            Some((error, standard)) if standard > 0.0 => {
+                format!("{:.1} +- {:.1}", 100.0 * error, 100.0 * standard)
+            }
+            Some((error, _)) => format!("{:.2}", 100.0 * error),
+            None => "-".to_owned(),
+        };
+        write!(f, "{text:>0$}", width(name))
     })
 }
 
