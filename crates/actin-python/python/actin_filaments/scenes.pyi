@@ -246,7 +246,8 @@ class Buckling(Part):
     """Shape of a buckled filament, from points at equal distances along its centre line:
     `buckling[0]_50_points_contour_nm`, `_mean_distance_nm` (from the line through the ends),
     `_peak_asymmetry`, `_non_coplanarity`, `_bend`, `_normals_rad_per_nm`, `_supertwist_deg`. Defined at
-    `actin_sim::shape::Buckle`.
+    `actin_sim::shape::Buckle`. The centre line is straight between nodes or monomers, or a cubic spline if
+    they are not more than the points.
 
     - `filament`: Index of the filament. Default: 0.
     - `points`: Number of points; from 4 to 10,000. Default: 50.
@@ -323,7 +324,7 @@ class Constant(Part):
     ) -> None: ...
 
 class Contour(Part):
-    """Properties of the centre line: `contour[0]_length_nm`, `contour[0]_gyration_radius_nm`,
+    """Properties of the centre line between the ends: `contour[0]_length_nm`, `contour[0]_gyration_radius_nm`,
     `contour[0]_largest_distance_nm` and `contour[0]_twist_turns`. The distance is measured from the axis as
     built. With a `shape` it is measured from the straight line through `at_nm` along `direction`.
 
@@ -863,7 +864,8 @@ class InternalLoad(Part):
     `_torque_pn_nm`. Without `at_nm`, extreme values along the filament and their arc lengths, such as
     `internal_load[0]_largest_tension_pn` and `internal_load[0]_largest_tension_at_nm`: `largest_tension`,
     `smallest_tension`, `largest_shear`, `largest_moment` (magnitudes), `largest_torque` (largest magnitude, with
-    sign).
+    sign). Cross-sections between held bodies have the load of the clamp, those between the last two monomers of
+    a free end the load before them.
 
     - `at_nm`: Arc length; from 0 to the length of the filament. By default extreme values are reported. Default: None.
     - `filament`: Index of the filament. Default: 0.
