@@ -111,6 +111,36 @@ fn a_free_rod_is_a_worm_like_chain() {
     within(square.mean, square.error.unwrap(), expected);
 }
 
+/// Rods of few segments have the persistence length of monomers, 11.6 um (`docs/measured/heat.md`): their joints next to free
+/// and pinned ends as well. Without cross-sections at the ends it is 17.4 and 23.4 um for three and two segments.
+#[test]
+fn joints_at_ends_have_the_rigidity_of_others() {
+    for (length_nm, segments, clamps) in [
+        (120.0, 3, ""),
+        (80.0, 2, ""),
+        (80.0, 2, "clamps: [Clamp(end: Start, hold: Pin)],"),
+    ] {
+        let (_, _, summary) = run(&format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: {length_nm:?}, segments: {segments})]),
+                {clamps}
+                observe: [TangentCorrelation(over_nm: 40.0)],
+                output: (vtk: false, states: false),
+                task: Brownian(duration_ms: 0.5, temperature_k: 298.0, record_every_ns: 500.0, seed: 1),
+            )"
+        ));
+        let cosine = mean(&summary, "tangent_correlation[0]_over_40nm");
+        let (mean, error) = (cosine.mean.unwrap(), cosine.error.unwrap());
+        let scale = -40.0 / mean.ln();
+        let error = scale * error / (1.0 - mean);
+        println!("{segments} segments {clamps}: {scale:.0} +- {error:.0} nm");
+        assert!(
+            (scale - 11_600.0).abs() < 3.0 * error + 200.0 && error < 900.0,
+            "{scale} {error}"
+        );
+    }
+}
+
 fn heated(filament: &str, scene: &str, task: &str) -> String {
     format!(
         "Scene(

@@ -11,15 +11,16 @@ const SAME_PLACE_NM: f64 = 1e-6;
 const SAME_DIRECTION: f64 = 1e-6;
 
 impl Assembly {
-    /// Starts from `state` of `run`, whose bodies must be the same. Positions and orientations are copied, and
-    /// velocities too if both tasks are `Dynamics`. Held bodies stay at their places in `state`, from which
-    /// stages move them. Controls begin as in the scene.
+    /// Starts from `state` of `run`, whose bodies must be the same, apart from cross-sections at the ends of rods, which
+    /// follow the adjacent segment. Positions and orientations are copied, and velocities too if both tasks are `Dynamics`.
+    /// Held bodies stay at their places in `state`, from which stages move them. Controls begin as in the scene.
     ///
     /// # Errors
     /// If bodies differ, or if the state depends on linkers or strains that are not taken over.
     pub fn start_from(&mut self, run: &Self, state: &State) -> Result<(), SceneProblem> {
-        self.check_bodies(run)?;
+        let frames = self.check_bodies(run)?;
         self.check_run(run)?;
+        let state = &self.with_ends(&frames, state);
         let is_motion = |scene: &Scene| matches!(scene.task, Task::Dynamics(_));
         let keeps_velocities = is_motion(&self.scene) && is_motion(&run.scene);
         self.drive.rebase(&self.clamps, state);
@@ -58,22 +59,23 @@ impl Assembly {
         SceneProblem::new("start.directory", value, rule)
     }
 
-    fn check_bodies(&self, run: &Self) -> Result<(), SceneProblem> {
+    /// Checks that the bodies are the same. Returns the frame of the run for each frame, `None` for cross-sections at ends that
+    /// the run does not have.
+    fn check_bodies(&self, run: &Self) -> Result<Vec<Option<usize>>, SceneProblem> {
         let [own, other] = [self, run].map(|one| (one.points.len(), one.frames.len()));
-        if own != other {
-            let [own, other] =
+        let is_same = |(a, b): ((BodyKind, f64), (BodyKind, f64))| are_same(a, b);
+        let points = own.0 == other.0 && self.points_at().zip(run.points_at()).all(is_same);
+        let frames = self.frames_of(run).filter(|_| points);
+        let Some(frames) = frames else {
+            let [mine, others] =
                 [own, other].map(|(points, frames)| format!("{points} points and {frames} frames"));
-            let rule =
-                format!("is a run with {other}, but the scene has {own}: write the same sections");
+            let rule = if own == other {
+                "is a run with other sections: write the same sections".to_owned()
+            } else {
+                format!("is a run with {others}, but the scene has {mine}: write the same sections")
+            };
             return Err(self.refused_start(rule));
-        }
-        let is_same = |(a, b): ((BodyKind, f64), (BodyKind, f64))| {
-            a.0 == b.0 && (a.1 - b.1).abs() < SAME_PLACE_NM
         };
-        if !self.places().zip(run.places()).all(is_same) {
-            let rule = "is a run with other sections: write the same sections";
-            return Err(self.refused_start(rule));
-        }
         let edges = |scene: &Scene| scene.periodic.as_ref().map(|periodic| periodic.size_nm);
         if edges(&self.scene) != edges(&run.scene) {
             let rule = "is a run with another periodic box: write the same size_nm";
@@ -96,7 +98,53 @@ impl Assembly {
                         turn_deg, shape and rest twist";
             return Err(self.refused_start(rule));
         }
-        Ok(())
+        Ok(frames)
+    }
+
+    /// Frame of another assembly for each frame, if they differ in free cross-sections at ends at most.
+    fn frames_of(&self, other: &Self) -> Option<Vec<Option<usize>>> {
+        let mut found = Vec::with_capacity(self.frames.len());
+        let mut others = (0..other.frames.len()).peekable();
+        for i in 0..self.frames.len() {
+            let is_same = |&j: &usize| are_same(self.frame_at(i), other.frame_at(j));
+            while others
+                .next_if(|j| !is_same(j) && other.is_free_end(*j))
+                .is_some()
+            {}
+            let same = others.next_if(is_same);
+            if same.is_none() && !self.is_free_end(i) {
+                return None;
+            }
+            found.push(same);
+        }
+        others.all(|j| other.is_free_end(j)).then_some(found)
+    }
+
+    fn is_free_end(&self, frame: usize) -> bool {
+        self.frames[frame].kind == BodyKind::Wall && self.rest.frames.is_free(frame)
+    }
+
+    /// State of a run on the bodies of this scene, with the frames of the run for each frame.
+    fn with_ends(&self, frames: &[Option<usize>], state: &State) -> State {
+        let mut own = self.rest.clone();
+        own.points.position.clone_from(&state.points.position);
+        own.points.velocity.clone_from(&state.points.velocity);
+        for (i, from) in frames.iter().enumerate() {
+            if let Some(j) = *from {
+                let (of, to) = (&state.frames, &mut own.frames);
+                to.orientation.set(i, of.orientation.get(j));
+                to.angular_momentum.set(i, of.angular_momentum.get(j));
+            }
+        }
+        for i in (0..frames.len()).filter(|&i| frames[i].is_none()) {
+            let is_first = self.filaments[self.filament_of_frame(i)].frames.start == i;
+            let segment = if is_first { i + 1 } else { i - 1 };
+            let rest = &self.rest.frames.orientation;
+            let relative = rest.get(segment).inverse() * rest.get(i);
+            let turned = own.frames.orientation.get(segment) * relative;
+            own.frames.orientation.set(i, turned);
+        }
+        own
     }
 
     /// Places of the centres of the monomers as built (nm, lab frame).
@@ -106,10 +154,14 @@ impl Assembly {
         monomers.map(|(i, _)| self.rest.points.position.get(i))
     }
 
-    /// Kind and arc length (nm) of each point, then of each frame.
-    fn places(&self) -> impl Iterator<Item = (BodyKind, f64)> + '_ {
-        let points = self.points.iter().map(|point| (point.kind, point.s_nm));
-        points.chain(self.frames.iter().map(|frame| (frame.kind, frame.s_nm)))
+    /// Kind and arc length (nm) of each point.
+    fn points_at(&self) -> impl Iterator<Item = (BodyKind, f64)> + '_ {
+        self.points.iter().map(|point| (point.kind, point.s_nm))
+    }
+
+    /// Kind and arc length (nm) of a frame.
+    fn frame_at(&self, i: usize) -> (BodyKind, f64) {
+        (self.frames[i].kind, self.frames[i].s_nm)
     }
 
     fn check_run(&self, run: &Self) -> Result<(), SceneProblem> {
@@ -130,4 +182,8 @@ impl Assembly {
         };
         Err(self.refused_start(rule))
     }
+}
+
+fn are_same(a: (BodyKind, f64), b: (BodyKind, f64)) -> bool {
+    a.0 == b.0 && (a.1 - b.1).abs() < SAME_PLACE_NM
 }

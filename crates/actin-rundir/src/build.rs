@@ -129,6 +129,34 @@ mod tests {
         assert!((begun - bent).abs() < 1e-12 * bent, "{begun} {bent}");
     }
 
+    /// In heat the free end has a cross-section of its own, which continues the last segment.
+    #[test]
+    fn motions_in_heat_begin_at_an_equilibrium() {
+        let folder = tempfile::tempdir().unwrap();
+        let [bent, warm] = ["bent", "warm"].map(|name| folder.path().join(name));
+        let cold = scene(&format!("{LOAD} task: Equilibrium()"));
+        let state = run(&cold, &bent).pop().unwrap();
+        let heat = "task: Brownian(duration_ms: 1e-6, temperature_k: 298.0, seed: 1)";
+        let begun = build(&after(&bent, heat)).unwrap();
+        let own = begun.system.state();
+        assert_eq!(own.points.position, state.points.position);
+        let count = state.frames.len();
+        assert_eq!(own.frames.len(), count + 1);
+        for i in 0..count {
+            assert_eq!(
+                own.frames.orientation.get(i),
+                state.frames.orientation.get(i)
+            );
+        }
+        let last = own.frames.orientation.get(count);
+        assert!(last.angle_to(&state.frames.orientation.get(count - 1)) < 1e-12);
+        // An equilibrium has no such cross-section.
+        let warmed = run(&after(&bent, heat), &warm).pop().unwrap();
+        let again = build(&after(&warm, "task: Equilibrium()")).unwrap();
+        assert_eq!(again.system.state().frames.len(), count);
+        assert_eq!(again.system.state().points.position, warmed.points.position);
+    }
+
     #[test]
     fn stages_move_clamps_from_their_last_places() {
         let folder = tempfile::tempdir().unwrap();

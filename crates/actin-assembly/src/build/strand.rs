@@ -3,7 +3,9 @@
 use super::SceneParts;
 use crate::built_axis::BuiltAxis;
 use crate::lattice::{Lattice, ResolvedSection, resolve};
-use crate::scene::{Clamp, End, Filament, Hinge, Hold, MAX_EXACT_INTEGER, SceneProblem, Section};
+use crate::scene::{
+    Clamp, End, Filament, Hinge, Hold, MAX_EXACT_INTEGER, RodLaw, SceneProblem, Section,
+};
 use crate::whole::to_count;
 use crate::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
 use crate::{law, models, problem_at};
@@ -34,6 +36,7 @@ pub(super) struct Strand<'a> {
     pub(super) hinge_frames: [Option<usize>; 2],
     /// Arc lengths of couples (nm).
     couples_nm: Vec<f64>,
+    is_heated: bool,
     pub(super) first_section: usize,
     /// Position of arc length 0 and rotation from lab +z.
     pub(super) placement: Placement,
@@ -75,6 +78,7 @@ impl<'a> Strand<'a> {
             hinges: clamps.map(|clamp| clamp.and_then(|c| c.hinge)),
             hinge_frames: [None; 2],
             couples_nm,
+            is_heated: bath_k.is_some(),
             first_section,
             placement: Placement {
                 rotation: filament.rotation(),
@@ -256,11 +260,16 @@ impl<'a> Strand<'a> {
             let hold = self.holds[end as usize];
             is_at(i, end) && (hold == Some(Hold::Wall) || self.hinges[end as usize].is_some())
         };
-        // A couple at the end acts through the half segment of this frame.
+        // A couple at the end acts through the half segment of this frame. In heat this half bends and twists; without
+        // the frame it would follow the joint behind it, which is then 1.5 times too stiff under laws of the mean curvature.
+        let fluctuates = |i: usize| {
+            let section = &self.filament.sections[i];
+            self.is_heated && section.rod_model(&self.filament.rod).law != RodLaw::Constant
+        };
         let free_wall = |i, end, length: f64| {
             let turns = matches!(self.holds[end as usize], None | Some(Hold::Pin));
             let outer = |s_nm: &f64| (s_nm - self.end_nm(end)).abs() < 0.5 * length;
-            is_at(i, end) && turns && self.couples_nm.iter().any(outer)
+            is_at(i, end) && turns && (fluctuates(i) || self.couples_nm.iter().any(outer))
         };
         StraightRod {
             start: self.axis_at(self.resolved[first].from_nm),
