@@ -163,7 +163,7 @@ impl FilamentDrag<'_> {
         }
     }
 
-    /// Returns `true` for a free wall frame that carries an end couple and is no hinge.
+    /// Returns `true` for a free wall frame, under an end couple or in heat, that is no hinge.
     fn is_end_of_rod(&self, frame: usize) -> bool {
         let mut ends = [End::Start, End::End].into_iter();
         self.assembly.rest.frames.is_free(frame)

@@ -55,8 +55,8 @@ impl SecondOrder for Hinge {
 }
 
 impl Assembly {
-    /// Returns the frame of the cross-section at the end of a rod: held by a wall, or turning under a
-    /// hinge or an end couple. `None` for other ends.
+    /// Returns the frame of the cross-section at the end of a rod: held by a wall, or free under a hinge, an end couple or in
+    /// heat. `None` for other ends.
     ///
     /// # Panics
     /// If the index is out of range.

@@ -194,7 +194,14 @@ impl Kinetics {
         let depends =
             |one: &&Switching| one.rates.force_scale().is_some() || one.rates.steps.is_some();
         let all = self.all.iter().filter(depends);
-        all.map(move |one| (one.index, one.average.delay(h)))
+        all.map(move |one| {
+            // Steps follow the long average.
+            let delay = match one.rates.steps {
+                Some(_) => one.rates.averaging_time(),
+                None => one.average.delay(h),
+            };
+            (one.index, delay)
+        })
     }
 
     pub(crate) fn booked(&self, state: &State) -> f64 {

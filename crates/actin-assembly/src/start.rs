@@ -1,6 +1,6 @@
 //! Initial state from another run.
 
-use crate::scene::{Scene, SceneProblem, Setting, Start, Task};
+use crate::scene::{End, Scene, SceneProblem, Setting, Start, Task};
 use crate::{Assembly, BodyKind, FilamentSpan};
 use actin_mechanics::{State, Vector3};
 
@@ -103,6 +103,15 @@ impl Assembly {
 
     /// Frame of another assembly for each frame, if they differ in free cross-sections at ends at most.
     fn frames_of(&self, other: &Self) -> Option<Vec<Option<usize>>> {
+        let hinges = |one: &Self| {
+            let filaments = 0..one.filaments.len();
+            let ends = filaments.flat_map(|k| [End::Start, End::End].map(|end| (k, end)));
+            ends.map(|(k, end)| one.hinge_frames(k, end).is_some())
+                .collect::<Vec<_>>()
+        };
+        if hinges(self) != hinges(other) {
+            return None;
+        }
         let mut found = Vec::with_capacity(self.frames.len());
         let mut others = (0..other.frames.len()).peekable();
         for i in 0..self.frames.len() {

@@ -80,7 +80,7 @@ impl Flow {
         curl * 0.5
     }
 
-    /// Angular velocity of a sphere less that of a slender body (rad/ns, body axes).
+    /// Difference of the angular velocities of a sphere and a slender body (rad/ns, body axes).
     pub(crate) fn turning_of_sphere(&self, q: UnitQuaternion) -> Vector3 {
         q.inverse_transform_vector(&self.rotation()) - self.turning(q)
     }

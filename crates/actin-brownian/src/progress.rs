@@ -40,6 +40,8 @@ struct Component {
     last: ComponentStep,
     /// Added friction in units of the friction over the time step.
     damping: f64,
+    /// Added friction of the last iteration.
+    last_damping: f64,
     /// `true` if the last two iterations had equal friction.
     is_even: bool,
     is_solved: bool,
@@ -114,8 +116,10 @@ impl Progress {
     ) -> bool {
         let components = self.components.iter_mut().zip(decreases).enumerate();
         for (c, (component, decrease)) in components {
+            // Without added friction, the decrease is larger.
+            let decrease = (1.0 + component.last_damping) * decrease.abs();
             // Also for NaN.
-            component.is_solved &= !is_selected(c) || decrease.abs() <= ENOUGH * thermal_energy;
+            component.is_solved &= !is_selected(c) || decrease <= ENOUGH * thermal_energy;
             component.has_moved = false;
         }
         self.components.iter().all(|component| component.is_solved)
@@ -171,6 +175,7 @@ impl Component {
             1.0
         };
         let before = self.damping;
+        self.last_damping = before;
         let energy = ratio * (1.0 + before) * step.decrease.abs();
         let is_calm = energy <= CALM * thermal_energy;
         let has_grown = !is_calm && step.decrease.abs() > GROWTH * self.last.decrease.abs();

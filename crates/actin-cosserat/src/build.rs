@@ -146,13 +146,14 @@ impl StraightRod {
                 start: is_joined[0] || self.wall(End::Start).is_some(),
                 end: is_joined[1] || self.wall(End::End).is_some(),
             };
+            let is_free = |end| self.wall(end) == Some(false);
+            let free_walls = Walls {
+                start: is_joined[0] || is_free(End::Start),
+                end: is_joined[1] || is_free(End::End),
+            };
             let first_point = first_point + done - count;
-            layouts.push(RodLayout::new(
-                first_point,
-                first_frame,
-                own.to_vec(),
-                walls,
-            )?);
+            let layout = RodLayout::new(first_point, first_frame, own.to_vec(), walls)?;
+            layouts.push(layout.with_free_walls(free_walls));
         }
         Ok(layouts)
     }

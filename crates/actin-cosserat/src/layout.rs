@@ -22,6 +22,8 @@ pub struct RodLayout {
     first_point: usize,
     first_frame: usize,
     walls: Walls,
+    /// Walls that are free.
+    free_walls: Walls,
     segment_lengths: Vec<f64>,
     voronoi_lengths: Vec<f64>,
 }
@@ -55,9 +57,14 @@ impl RodLayout {
             first_point,
             first_frame,
             walls,
+            free_walls: Walls::default(),
             segment_lengths,
             voronoi_lengths,
         })
+    }
+
+    pub(crate) fn with_free_walls(self, free_walls: Walls) -> Self {
+        Self { free_walls, ..self }
     }
 
     /// Number of segments.
@@ -79,6 +86,12 @@ impl RodLayout {
     pub fn bending_chain(&self) -> Range<usize> {
         let Range { start, end } = self.frames();
         start - usize::from(self.walls.start)..end + usize::from(self.walls.end)
+    }
+
+    /// Frames of the segments and free walls.
+    pub(crate) fn free_frames(&self) -> Range<usize> {
+        let Range { start, end } = self.frames();
+        start - usize::from(self.free_walls.start)..end + usize::from(self.free_walls.end)
     }
 
     /// Point at an end.

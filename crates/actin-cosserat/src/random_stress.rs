@@ -243,7 +243,7 @@ impl RandomStress for EnergyGradient {
             .extended()
             .is_some_and(|extended| self.material().laws().is_some() || !extended.is_straight());
         if self.material().is_axisymmetric() && !is_coupled {
-            self.layout().frames()
+            self.layout().free_frames()
         } else {
             0..0
         }

@@ -129,7 +129,7 @@ mod tests {
         assert!((begun - bent).abs() < 1e-12 * bent, "{begun} {bent}");
     }
 
-    /// In heat the free end has a cross-section of its own, which continues the last segment.
+    /// In heat the free end has a separate cross-section, which continues the last segment.
     #[test]
     fn motions_in_heat_begin_at_an_equilibrium() {
         let folder = tempfile::tempdir().unwrap();

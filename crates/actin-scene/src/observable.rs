@@ -95,7 +95,7 @@ pub enum Observable {
         #[serde(default)]
         filament: usize,
     },
-    /// Properties of the centre line between the ends: `contour[0]_length_nm`, `contour[0]_gyration_radius_nm`,
+    /// Properties of the centre line: between the ends `contour[0]_length_nm`, `contour[0]_gyration_radius_nm`,
     /// `contour[0]_largest_distance_nm` and `contour[0]_twist_turns`. The distance is measured from the axis as
     /// built. With a `shape` it is measured from the straight line through `at_nm` along `direction`.
     Contour {

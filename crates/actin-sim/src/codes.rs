@@ -22,6 +22,8 @@ pub(crate) const UNKNOWN_ERROR: &str = "unknown-error";
 pub(crate) const UNKNOWN_STABILITY: &str = "unknown-stability";
 /// The energy balance has a large time-stepping error.
 pub(crate) const ENERGY_BALANCE: &str = "energy-balance";
+/// Averaged forces of linkers are late along a path.
+pub(crate) const LINKER_AVERAGING: &str = "linker-averaging";
 /// Rates of linkers are fast compared with the time step.
 pub(crate) const LINKER_RATES: &str = "linker-rates";
 /// Time steps are longer than slow motion allows.

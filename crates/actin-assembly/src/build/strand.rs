@@ -260,8 +260,8 @@ impl<'a> Strand<'a> {
             let hold = self.holds[end as usize];
             is_at(i, end) && (hold == Some(Hold::Wall) || self.hinges[end as usize].is_some())
         };
-        // A couple at the end acts through the half segment of this frame. In heat this half bends and twists; without
-        // the frame it would follow the joint behind it, which is then 1.5 times too stiff under laws of the mean curvature.
+        // A couple at the end acts through the half segment of this frame. In heat this half bends and twists. Without
+        // the frame it would follow the adjacent joint, which would be 1.5 times too stiff under laws of the mean curvature.
         let fluctuates = |i: usize| {
             let section = &self.filament.sections[i];
             self.is_heated && section.rod_model(&self.filament.rod).law != RodLaw::Constant

@@ -25,7 +25,7 @@ pub(super) struct ForceAverage {
 ///
 /// The fluctuations have at most the variance `kT k` of a spring of stiffness `k`, and relax in `f/k` with the friction
 /// `f` of the bodies. Over a time `t`, in steps of length `h`, the variance of the average is at most
-/// `kT (k h/2 + f) / t`.
+/// `kT (k h/2 + f) / t`. Slower fluctuations, of beads or in viscous fluids, count as changes of the force.
 #[derive(Clone, Debug)]
 pub(super) struct RecentAverage {
     thermal_energy: f64,
@@ -43,7 +43,7 @@ const FRICTION: f64 = 400.0;
 const SPREAD: f64 = 1.0 / 7.0;
 /// Difference from the average over the scale above which the recent average counts, 3.5 standard deviations.
 const CHANGED: f64 = 0.5;
-/// Largest time constant of the recent average over that of the average.
+/// Largest ratio of the time constants of the recent average and the long one.
 const RECENT: f64 = 0.25;
 
 impl RecentAverage {

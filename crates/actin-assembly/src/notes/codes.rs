@@ -22,5 +22,3 @@ pub(crate) const NEAR_CORRELATION: &str = "near-correlation";
 pub(crate) const SAMPLED_INTERFACES: &str = "sampled-interfaces";
 /// Chosen sections do not meet the requested error.
 pub(crate) const RESOLUTION: &str = "resolution-not-met";
-/// Averaged forces of linkers are late along a path.
-pub(crate) const LINKER_AVERAGING: &str = "linker-averaging";

@@ -157,10 +157,6 @@ impl Assembly {
             (codes::ROD_LAW, laws.collect()),
             (codes::PERSISTENCE_LENGTH, self.undetermined_lengths()),
             (codes::NEAR_CORRELATION, self.shortened_lengths()),
-            (
-                codes::LINKER_AVERAGING,
-                Vec::from_iter(self.lagging_averages()),
-            ),
         ];
         for (code, messages) in warnings {
             notes.extend(Note::warnings(code, messages));
@@ -213,15 +209,11 @@ impl Assembly {
         messages.collect()
     }
 
-    /// Warning on linkers whose averaged forces follow changes of the scene too late.
-    fn lagging_averages(&self) -> Option<String> {
+    /// Warning on linkers whose averaged forces follow changes of the scene too late in steps of `step_ns`.
+    pub fn note_on_averages(&self, step_ns: f64) -> Option<String> {
         let change = self.scene.times_of_change().min_by(f64::total_cmp)?;
-        let step = match &self.scene.task {
-            Task::Brownian(motion) => motion.time_step_ns,
-            _ => None,
-        };
         let kinetics = self.kinetics.as_ref()?;
-        let delays = kinetics.delays(step.unwrap_or(0.0));
+        let delays = kinetics.delays(step_ns);
         let mut lagging = delays.filter(|(_, delay)| *delay > LAGGING * change);
         let (linker, delay) = lagging.next()?;
         let others = match lagging.count() {
@@ -441,10 +433,9 @@ mod tests {
                     task: Dynamics(duration_ns: 1.0),
                 )"
             ));
-            let notes = Assembly::build(&scene.unwrap()).unwrap().notes();
-            let mut messages = notes.into_iter().map(|note| note.message);
-            messages
-                .find(|message| message.starts_with("linker 0: rates follow the averaged force"))
+            Assembly::build(&scene.unwrap())
+                .unwrap()
+                .note_on_averages(1e-3)
         };
         let late = found(", averaging_ns: 0.06").unwrap();
         assert!(

@@ -60,8 +60,8 @@ impl Brownian {
         Err(self.failure(system, &self.progress.largest()))
     }
 
-    /// Returns `true` if the loads confirm that all components are solved, or the neighbours of those that have moved
-    /// alone. Unsolved components are reopened. An iteration that turns a stiff spring changes its length by more than
+    /// Returns `true` if the loads confirm that all components are solved. If components have moved alone, only these and
+    /// their neighbours are checked. Unsolved components are reopened. An iteration that turns a stiff spring changes its length by more than
     /// the iterations predict.
     fn is_balanced(&mut self, system: &mut System, h: f64) -> bool {
         if self.components.selection().is_some() {

@@ -57,7 +57,7 @@ mod tests {
     fn normals_of_coarse_rods_turn_by_the_torsion() {
         let helix = "Helix(radius_nm: 15.0, pitch_nm: 60.0)";
         let rise = 60.0 / TAU;
-        // Errors of the spline; those of 50 points are 0.6 %.
+        // Errors of the spline; 50 points alone cause 0.6 %.
         for (segments, tolerance) in [(10, 0.06), (20, 0.015), (40, 0.01), (100, 0.01)] {
             let half = 100.0 / f64::from(segments) / rise.hypot(15.0);
             let radius = 15.0 * half / half.sin();

@@ -2,9 +2,9 @@
 
 use super::brownian::{self, RelaxationTimes, relaxation_times};
 use super::{Estimate, dynamics};
-use crate::observe;
 use crate::scene::{Scene, SceneProblem, Task};
 use crate::{Assembly, memory};
+use crate::{codes, observe};
 use actin_assembly::Note;
 use std::time::Instant;
 
@@ -94,9 +94,16 @@ impl<'a> Plan<'a> {
     /// side effects. Warnings about the scene are in [`Assembly::notes`].
     pub fn notes(&self) -> Vec<Note> {
         let scene = &self.assembly.scene;
+        let of_estimate = |estimate: &Estimate| {
+            let averages = self.assembly.note_on_averages(estimate.time_step_ns);
+            let averages = Note::warnings(codes::LINKER_AVERAGING, averages);
+            let means = estimate.note_on_means(scene);
+            let notes = estimate.notes(&scene.task).into_iter();
+            notes.chain(means).chain(averages).collect::<Vec<_>>()
+        };
         let estimate = self.estimate.iter();
         estimate
-            .flat_map(|e| [e.notes(&scene.task), Vec::from_iter(e.note_on_means(scene))].concat())
+            .flat_map(of_estimate)
             .chain(observe::note(scene))
             .collect()
     }

@@ -1,6 +1,6 @@
 //! Spins of filaments about their axes in overdamped motion.
 
-use crate::scene::{Brownian as Task, SceneProblem};
+use crate::scene::{Brownian as Task, Flow, SceneProblem, Task as AnyTask};
 use crate::{Assembly, SectionSpan};
 use actin_mechanics::RandomStress;
 use std::collections::HashSet;
@@ -55,8 +55,13 @@ pub(super) fn are_coupled(assembly: &Assembly) -> Vec<bool> {
     for clamp in assembly.scene.clamps.iter().filter(|c| c.hinge.is_some()) {
         coupled[clamp.filament] = true;
     }
+    // A flow turns beads about axes across the filament.
+    let flows = match &assembly.scene.task {
+        AnyTask::Brownian(task) => task.flow != Flow::AtRest || assembly.scene.periodic.is_some(),
+        _ => false,
+    };
     let beads = assembly.scene.beads.iter();
-    for bead in beads.filter(|bead| bead.site.radius_nm > 0.0) {
+    for bead in beads.filter(|bead| flows || bead.site.radius_nm > 0.0) {
         coupled[bead.site.filament] = true;
     }
     let stresses = assembly

@@ -183,7 +183,8 @@ impl Estimate {
             "in heat, contacts act late in steps of {step:.1e} ns: filaments stay at walls as if these were about {approach:.1} \
              nm farther away, and at each other as if they were {:.1} nm thinner; 1 nm at walls in steps of {:.1e} ns",
             SQRT_2 * approach,
-            step / approach.powi(2)
+            // The stiff length grows with `h^(1/4)`.
+            step / approach.powf(8.0 / 3.0)
         ))
     }
 

@@ -48,7 +48,7 @@ pub struct Ribbon {
     /// (nm); `None` at a free end.
     pub ends: [Option<(f64, UnitQuaternion)>; 2],
     /// Outermost frames in the same way, also of ends that turn: the cross-section of a rod under a
-    /// hinge or an end couple.
+    /// hinge or an end couple, or in heat.
     pub(super) outermost: [Option<(f64, UnitQuaternion)>; 2],
     /// Held frame of each hinged end, in the same axes.
     hinges: [Option<UnitQuaternion>; 2],

@@ -107,8 +107,8 @@ pub(crate) struct SectionLoads {
     limits: [Limit; 2],
 }
 
-/// Outermost cross-section of an end with the complete load: inside of its held bodies, or of those that share the load
-/// of a free end.
+/// Outermost cross-section of an end with the complete load: inside of its held bodies, or of the bodies that share
+/// the load of a free end.
 #[derive(Clone, Copy, Debug)]
 struct Limit {
     /// Arc length of this cross-section (nm).
@@ -224,7 +224,7 @@ mod tests {
         }
     }
 
-    /// The load at a held end is the reaction of its clamp, and the load along the filament is that of the other end.
+    /// The load at a held end is the reaction of its clamp. Along the filament it balances the load at the other end.
     #[test]
     fn ends_transmit_the_whole_load() {
         let rod = ["Wall", "NodeAndFrame", "TwoNodesAndFrame"].map(|hold| (SECTIONS[0], hold));
@@ -260,7 +260,7 @@ mod tests {
                 (of_force - force).norm() < 1e-5,
                 "{held:?} at {s_nm}: {of_force}"
             );
-            // At an end of monomers the load is that of the section before the last two, 1.5 rises of 2.7 nm away.
+            // At an end of monomers the load equals the load before the last two, 1.5 rises of 2.7 nm away.
             let error = (couple - expected).norm();
             assert!(error < 4.2 * force.norm(), "{held:?} at {s_nm}: {error}");
             assert_eq!(
