@@ -15,6 +15,8 @@ use actin_sim::{
     RunError, RunPosition, SavedRun, Sink, Start, Status,
 };
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -40,7 +42,7 @@ fn run_plan(arguments: &RunArguments, opened: &BuiltScene, plan: &Plan<'_>) -> R
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
     let directory = RunDirectory::existing(&out);
-    let mut checkpoints = checkpoints(arguments, plan, &directory)?;
+    let mut checkpoints = checkpoints(arguments, plan, &directory, signals::interruption()?);
     refuse_own_sources(arguments, plan.scene().start.as_ref(), &out)?;
     if arguments.overwrite && FollowedDirectory::exists_at(&out) {
         // An earlier run with time-dependent resolution.
@@ -108,16 +110,15 @@ pub(crate) fn checkpoints(
     arguments: &RunArguments,
     plan: &Plan<'_>,
     directory: &RunDirectory,
-) -> Result<Checkpoints, Failure> {
-    let interrupted = signals::interruption()
-        .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
-    Ok(Checkpoints::new(
+    interrupted: Arc<AtomicBool>,
+) -> Checkpoints {
+    Checkpoints::new(
         directory,
         plan,
         arguments.checkpoint_every,
         interrupted,
         |error| eprintln!("warning: no checkpoint: {error}; the run continues"),
-    ))
+    )
 }
 
 /// Reports a finished run; a failed one is an error.

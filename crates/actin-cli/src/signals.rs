@@ -1,5 +1,6 @@
 //! Signal handling.
 
+use crate::failure::Failure;
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -8,9 +9,10 @@ use std::sync::atomic::AtomicBool;
 ///
 /// A second SIGHUP does not, since a closing terminal can send several. SIGHUP remains ignored if it was ignored when
 /// the program started (`nohup`).
-pub(crate) fn interruption() -> io::Result<Arc<AtomicBool>> {
+pub(crate) fn interruption() -> Result<Arc<AtomicBool>, Failure> {
     let interrupted = Arc::new(AtomicBool::new(false));
-    register(&interrupted)?;
+    register(&interrupted)
+        .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
     Ok(interrupted)
 }
 

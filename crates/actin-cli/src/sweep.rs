@@ -112,8 +112,7 @@ fn make(
     opened: &ValidatedSweep,
     directory: &SweepDirectory,
 ) -> Result<SweepOutcome, Failure> {
-    let interrupted = signals::interruption()
-        .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
+    let interrupted = signals::interruption()?;
     let settings = Settings {
         jobs: arguments.jobs,
         checkpoint_every: arguments.checkpoint_every,

@@ -53,8 +53,7 @@ fn budget(text: &str) -> Result<Duration, String> {
 pub(crate) fn trade(arguments: &TradeArguments) -> Result<(), Failure> {
     let read = ParsedScene::new(&arguments.source)?;
     let out = folder(arguments)?;
-    let interrupted = signals::interruption()
-        .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
+    let interrupted = signals::interruption()?;
     let bar = progress::spinner();
     let watch = TradeCallbacks {
         report: &|what| bar.set_message(what.to_owned()),

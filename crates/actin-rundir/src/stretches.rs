@@ -6,9 +6,10 @@
 //! | `stretches/NNNN/` | run directory of each stretch between two switches, with explicit sections |
 //! | `stretches.json` | start of each stretch |
 //! | `switches.csv` | time, position and changes of energy and momentum of each switch |
-//! | `energies.csv`, `observables.csv` | tables of all stretches, concatenated |
+//! | `energies.csv`, `observables.csv` | tables of all stretches, concatenated; without energies of parts |
 //!
-//! Each switch has two records at the same time, before and after it.
+//! Each switch has two records at the same time, before and after it, which do not fit the interval of the others:
+//! means over the rows of these tables count moments of switches more often than other moments.
 
 use crate::RunDirectoryError;
 use crate::atomic::unfinished;
@@ -122,7 +123,7 @@ impl FollowedDirectory {
             .replace(SWITCHES, |out| switches(beginnings, out))?;
         let end_ns = self.join(ENERGIES, beginnings, |column| COMMON.contains(&column))?;
         if self.stretch(0).join(OBSERVABLES).exists() {
-            self.join(OBSERVABLES, beginnings, |_| true)?;
+            self.join(OBSERVABLES, beginnings, |column| !is_of_a_part(column))?;
         }
         for one in beginnings {
             // Left where a process was killed after it had written the results of the stretch.
@@ -174,6 +175,13 @@ impl FollowedDirectory {
         })?;
         Ok(end_ns)
     }
+}
+
+/// Returns true for energies of sections and junctions, which other stretches do not have.
+fn is_of_a_part(column: &str) -> bool {
+    ["energy_section_", "energy_junction_"]
+        .iter()
+        .any(|part| column.starts_with(part))
 }
 
 /// Removes a run directory with the files listed in its manifest.

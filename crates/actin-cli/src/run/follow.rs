@@ -4,10 +4,13 @@ use super::{RunSink, by_default, checkpoints, refuse_own_sources};
 use crate::RunArguments;
 use crate::failure::{BuiltScene, Failure};
 use crate::report::print;
+use crate::signals;
 use actin_rundir::{Checkpoints, FollowedDirectory, RunDirectory, RunLock};
 use actin_sim::follow::{Follower, Stretch, StretchEnd, StretchStart};
 use actin_sim::{Outcome, Plan, RunError, SavedRun, Sink, Status, Summary};
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 struct Chain<'a> {
     arguments: &'a RunArguments,
@@ -15,6 +18,8 @@ struct Chain<'a> {
     follower: &'a Follower,
     directory: FollowedDirectory,
     beginnings: Vec<StretchStart>,
+    /// Set by a signal, also between stretches.
+    interrupted: Arc<AtomicBool>,
 }
 
 pub(crate) fn run(arguments: &RunArguments, opened: &BuiltScene) -> Result<(), Failure> {
@@ -43,6 +48,7 @@ pub(crate) fn run(arguments: &RunArguments, opened: &BuiltScene) -> Result<(), F
         follower: &follower,
         directory,
         beginnings,
+        interrupted: signals::interruption()?,
     };
     let summary = chain.advance()?;
     print(&summary, &opened.notes(&opened.plan()?), &out);
@@ -97,7 +103,7 @@ impl Chain<'_> {
         loop {
             let plan = self.planned(&stretch)?;
             let directory = RunDirectory::existing(self.path(&stretch));
-            let mut kept = checkpoints(self.arguments, &plan, &directory)?;
+            let mut kept = self.checkpoints(&plan, &directory);
             let saved = if is_begun {
                 Some(kept.resume(&plan)?)
             } else {
@@ -123,6 +129,11 @@ impl Chain<'_> {
             drop(plan);
             (stretch, is_begun) = (next, true);
         }
+    }
+
+    fn checkpoints(&self, plan: &Plan<'_>, directory: &RunDirectory) -> Checkpoints {
+        let interrupted = Arc::clone(&self.interrupted);
+        checkpoints(self.arguments, plan, directory, interrupted)
     }
 
     fn path(&self, stretch: &Stretch) -> std::path::PathBuf {
@@ -187,7 +198,7 @@ impl Chain<'_> {
         let plan = self.planned(stretch)?;
         self.create(stretch, &plan)?;
         let directory = RunDirectory::existing(self.path(stretch));
-        let mut kept = checkpoints(self.arguments, &plan, &directory)?;
+        let mut kept = self.checkpoints(&plan, &directory);
         saved
             .recorded
             .last

@@ -16,7 +16,7 @@ const SWINGING: &str = "Scene(
     ),
     clamps: [Clamp(end: Start)],
     loads: [EndForce(end: End, force_pn: (-5.0, 0.0, 0.0))],
-    observe: [Tip()],
+    observe: [Tip(), Energies],
     task: Dynamics(duration_ns: 15.0, record_every_ns: 0.1),
 )";
 
@@ -50,6 +50,10 @@ fn a_motion_of_changing_resolution_resumes_to_the_same_bytes() {
     let place = Workplace::with(SWINGING);
     let whole = place.run("whole");
     assert_has(&whole, &["switch(es) added"]);
+    let columns = place.read("whole/observables.csv");
+    let columns = columns.lines().next().unwrap();
+    assert!(columns.contains("energy_potential_pn_nm"), "{columns}");
+    assert!(!columns.contains("energy_section_0"), "{columns}");
     for (name, how) in [
         ("stretches/0000/scene.ron", "-INT"),
         ("stretches/0002", "-KILL"),
@@ -59,7 +63,8 @@ fn a_motion_of_changing_resolution_resumes_to_the_same_bytes() {
         let arguments = ["--out", "parts", "--checkpoint-every", "0.01", "--resume"];
         let mut child = place.start(&arguments, &format!("parts/{name}"));
         signal(&child, how);
-        child.wait().unwrap();
+        let ended = child.wait().unwrap();
+        assert_eq!(ended.code(), (how == "-INT").then_some(130), "{name}");
     }
     place.resume("parts");
     assert_same(&place.path("whole"), &place.path("parts"));
