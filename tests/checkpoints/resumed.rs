@@ -2,7 +2,7 @@
 
 use super::common::{Choice, IN_TIME, advance, files};
 use actin_rundir::RunDirectory;
-use actin_sim::{LinkerEventKind, Outcome, Plan, Record, Scene, Status, Trajectory};
+use actin_sim::{LinkerEventKind, Outcome, Plan, Record, Scene, Solve, Status, Trajectory};
 use proptest::prelude::*;
 
 fn timeless(report: &Outcome) -> String {
@@ -233,8 +233,7 @@ fn linkers_resume_to_the_same_bits() {
         drag: (translational_per_ns: 1.0, rotational_per_ns: 1.0)";
     for task in ["", "integrator: Vefrl", thermal] {
         let scene = scene(task);
-        let assembly = actin_sim::Assembly::build(&scene).unwrap();
-        let (_, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+        let outcome = scene.solve().unwrap().outcome;
         assert!(outcome.events.len() > 5, "{:?}", outcome.events);
         compare(&scene, &[2, 3, 5]);
     }
@@ -285,8 +284,8 @@ fn crosslinkers_resume_to_the_same_bits() {
             record_every_ns: 15000.0),
     )";
     let scene = Scene::from_ron(text).unwrap();
-    let assembly = actin_sim::Assembly::build(&scene).unwrap();
-    let (trajectory, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+    let ran = scene.solve().unwrap();
+    let (assembly, outcome) = (&ran.assembly, &ran.outcome);
     let count = |kind| outcome.events.iter().filter(|e| e.what == kind).count();
     for kind in [
         LinkerEventKind::Attached,
@@ -298,7 +297,7 @@ fn crosslinkers_resume_to_the_same_bits() {
         assert!(count(kind) > 0, "{kind}");
     }
     // Events restore the sites of each record.
-    for record in &trajectory.records {
+    for record in ran.records() {
         let mut state = record.state.clone();
         state.controls = assembly.rest.controls.clone();
         assembly.restore_controls(&mut state, record.at, &outcome.events);

@@ -1,7 +1,7 @@
 //! Energy balance of motions with moving ends and loads, drag and heat.
 
 use super::filaments::mean_and_error;
-use actin_sim::{Assembly, Plan, Record, Scene, Summary, Task};
+use actin_sim::{Record, Scene, Solution, Solve, Summary, Task};
 use std::f64::consts::TAU;
 
 /// Largest error of the energy balance and largest exchanged energy (pN nm), at a share of the
@@ -15,8 +15,7 @@ fn open(scene: &str, share: f64) -> (f64, f64) {
         }
         Task::Equilibrium(_) => panic!("a motion"),
     }
-    let assembly = Assembly::build(&scene).unwrap();
-    let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+    let trajectory = scene.solve().unwrap().trajectory;
     let total = |r: &Record| r.potential_pn_nm() + r.kinetic_pn_nm;
     let begun = total(&trajectory.records[0]);
     let largest = |of: &dyn Fn(&Record) -> f64| {
@@ -140,8 +139,7 @@ fn overdamped_motion_in_a_bath_records_work() {
     let of = |temperature: f64, seed: u64| {
         let task = format!("temperature_k: {temperature:?}, seed: {seed}, time_step_ns: 0.004");
         let scene = Scene::from_ron(&overdamped(DRIVEN[4].1, &task)).unwrap();
-        let assembly = Assembly::build(&scene).unwrap();
-        let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+        let trajectory = scene.solve().unwrap().trajectory;
         trajectory.records.last().unwrap().booked
     };
     let cold = of(0.0, 0).work_pn_nm;
@@ -168,8 +166,11 @@ fn isolated_motions_exchange_no_energy() {
 fn energy_errors_give_a_warning() {
     let told_of = |text: &str, share: f64| {
         let scene = Scene::from_ron(text).unwrap();
-        let assembly = Assembly::build(&scene).unwrap();
-        let (trajectory, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+        let Solution {
+            assembly,
+            trajectory,
+            outcome,
+        } = scene.solve().unwrap();
         let mut last = trajectory.records.last().unwrap().clone();
         last.row.kinetic_pn_nm += share * last.booked.work_pn_nm;
         let mut notes = Summary::new(&assembly, &last, &outcome).notes.into_iter();

@@ -2,7 +2,7 @@
 
 use super::filaments::KBT;
 use actin_sim::ellipsoid::{Fluctuations, Monomers};
-use actin_sim::{Assembly, Plan, Scene};
+use actin_sim::{Assembly, Plan, Scene, Solution, Solve};
 
 fn scene(sections: &str, task: &str) -> Scene {
     let text = format!(
@@ -59,8 +59,11 @@ fn warmth(attached: usize) -> [f64; 2] {
         Rod(from_nm: 120.0, to_nm: 200.0, segments: 2)";
     let mut scene = scene(sections, &quasi_harmonic(0.3, 100.0));
     scene.filament.junction.attached_monomers = attached;
-    let assembly = Assembly::build(&scene).unwrap();
-    let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+    let Solution {
+        assembly,
+        trajectory,
+        ..
+    } = scene.solve().unwrap();
     let records = &trajectory.records[trajectory.records.len() / 50..];
     let mut sums = [0.0; 2];
     for record in records {

@@ -1,7 +1,7 @@
 //! Accuracy of motion whose resolution follows it, against all monomers.
 
 use actin_sim::follow::Follower;
-use actin_sim::{Assembly, End, Plan, Record, Scene};
+use actin_sim::{Assembly, End, Record, Scene, Solution, Solve};
 
 const LOWER: f64 = 0.6;
 
@@ -47,8 +47,11 @@ fn error(found: &[(f64, [f64; 3])], reference: &[(f64, [f64; 3])]) -> f64 {
 }
 
 fn unchanged(sections: &str) -> Vec<(f64, [f64; 3])> {
-    let assembly = Assembly::build(&scene(sections)).unwrap();
-    let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+    let Solution {
+        assembly,
+        trajectory,
+        ..
+    } = scene(sections).solve().unwrap();
     tips([(&assembly, trajectory.records.as_slice())].into_iter())
 }
 

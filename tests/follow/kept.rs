@@ -2,7 +2,7 @@
 
 use super::{energy, scene, to_and_fro};
 use actin_sim::follow::{AdaptiveMotion, CompletedStretch};
-use actin_sim::{BodyKind, End, Scene};
+use actin_sim::{BodyKind, End, Scene, Solution, Solve};
 use std::sync::LazyLock;
 
 fn swinging() -> Scene {
@@ -114,8 +114,11 @@ fn the_motion_agrees_with_monomers() {
         altered: None,
     }]
     .into();
-    let all = actin_sim::Assembly::build(&scene).unwrap();
-    let (trajectory, _) = actin_sim::Plan::new(&all).unwrap().run().unwrap();
+    let Solution {
+        assembly: all,
+        trajectory,
+        ..
+    } = scene.solve().unwrap();
     let expected = all.tip_nm(&trajectory.records.last().unwrap().state, End::End);
     let last = followed.stretches.last().unwrap();
     let record = last.trajectory.records.last().unwrap();

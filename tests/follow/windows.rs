@@ -2,7 +2,7 @@
 
 use super::scene;
 use actin_sim::follow::{Cell, Criterion, FilamentState, Follower, ResolutionRequest};
-use actin_sim::{Assembly, Plan, RefinementCriterion, Scene};
+use actin_sim::{RefinementCriterion, Scene, Solution, Solve};
 
 #[derive(Debug)]
 struct Restless;
@@ -43,8 +43,11 @@ fn criteria_read_loads_and_energies_of_cells() {
         loads: [EndForce(end: End, force_pn: (0.5, 0.0, 0.0))],
         task: Equilibrium(),
     )";
-    let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
-    let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+    let Solution {
+        assembly,
+        trajectory,
+        ..
+    } = Scene::from_ron(text).unwrap().solve().unwrap();
     let state = &trajectory.records.last().unwrap().state;
     let boundaries_nm = [0.0, 36.0, 72.0, 108.0, 144.0];
     let filament = FilamentState::new((&assembly, state), &boundaries_nm);

@@ -43,10 +43,12 @@ impl Assembly {
     /// start as rods.
     ///
     /// # Errors
-    /// If a section is too short for its bodies, an interface finds no bonds, or the bodies exceed
+    /// As [`Scene::validate`]; if a section is too short for its bodies, an interface finds no bonds, or the bodies exceed
     /// the memory of this machine.
     pub fn build(scene: &Scene) -> Result<Self, SceneProblem> {
         let began = Instant::now();
+        // Scenes written in Rust have passed no reader.
+        scene.validate()?;
         let mut built = Self::resolve_and_build(scene)?;
         built.build_s = began.elapsed().as_secs_f64();
         Ok(built)

@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("energy: {energy:.1} pN nm; B L / 2 R^2 = {theory:.1} pN nm");
 
     relax(&mut state, &[Box::new(law)])?;
-    let tip = state.points.position.get(rod.end_point(End::End));
+    let tip = rod.tip(&state);
     let (sin, cos) = (rod.length() / radius).sin_cos();
     let circle = Vector3::new(1.0 - cos, 0.0, sin) * radius;
     println!("tip: ({:.3}, {:.3}) nm", tip.x, tip.z);

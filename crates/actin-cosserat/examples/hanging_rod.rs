@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let weight = Weight::new(&mut state, Vector3::z() * -acceleration)?;
     relax(&mut state, &[Box::new(law), Box::new(weight)])?;
 
-    let tip = state.points.position.get(rod.end_point(End::End));
+    let tip = rod.tip(&state);
     let per_length = filament.cross_section.linear_density() * acceleration;
     let theory = per_length * rod.length().powi(4) / (8.0 * rigidities.bend.x);
     println!("tip: {:.4} nm down; w L^4 / 8 B = {theory:.4} nm", -tip.z);

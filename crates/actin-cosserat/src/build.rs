@@ -281,7 +281,7 @@ mod tests {
         assert_eq!(layout.wall(End::End), Some(5));
         let held = (0..state.frames.len()).filter(|&i| !state.frames.is_free(i));
         assert!(held.eq([2, 5]));
-        let tip = state.points.position.get(layout.end_point(End::End));
+        let tip = layout.tip(&state);
         assert_eq!(tip, Vector3::new(1.0, 2.0, 7.0));
     }
 

@@ -1,6 +1,7 @@
 //! Bodies and rest lengths of a rod in a state.
 
 use crate::{End, RodError};
+use actin_mechanics::{LoadError, PointLoad, State, Vector3};
 use std::ops::Range;
 
 /// Ends of a rod with a held wall frame.
@@ -100,6 +101,33 @@ impl RodLayout {
             End::Start => self.first_point,
             End::End => self.first_point + self.segments(),
         }
+    }
+
+    /// Position of the last point (nm, lab frame).
+    pub fn tip(&self, state: &State) -> Vector3 {
+        state.points.position.get(self.end_point(End::End))
+    }
+
+    /// Creates a constant force (pN, lab frame) on the last point.
+    ///
+    /// ```
+    /// use actin_cosserat::{End, EnergyGradient, Rigidities, RodClamp, RodMaterial, State, StraightRod, Vector3};
+    /// use actin_equilibrium::relax;
+    /// let mut state = State::default();
+    /// let rod = StraightRod::uniform(32, 5.0).push_clamped(RodClamp::Wall, End::Start, &mut state)?;
+    /// let rigidities = Rigidities::table4();
+    /// let law = EnergyGradient::new(rod.clone(), RodMaterial::new(rigidities)?);
+    /// let force = rod.pull(&mut state, Vector3::x() * 0.01)?;
+    /// relax(&mut state, &[Box::new(law), Box::new(force)])?;
+    /// let beam = 0.01 * rod.length().powi(3) / (3.0 * rigidities.bend.y);
+    /// assert!((rod.tip(&state).x / beam - 1.0).abs() < 0.01);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the force is not finite.
+    pub fn pull(&self, state: &mut State, force: Vector3) -> Result<PointLoad, LoadError> {
+        PointLoad::at(state, self.end_point(End::End), force)
     }
 
     /// Frame of the segment at an end.

@@ -1,7 +1,7 @@
 //! Runs a scene and writes it as GSD.
 
 use actin_export::Format;
-use actin_export::sim::{Assembly, Plan, Scene, SimError};
+use actin_export::sim::{Scene, SimError, Solution, Solve};
 use std::fs::File;
 
 const SCENE: &str = "Scene(
@@ -13,8 +13,11 @@ const SCENE: &str = "Scene(
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Scene::from_ron(SCENE).map_err(SimError::from)?;
-    let assembly = Assembly::build(&scene)?;
-    let (trajectory, _) = Plan::new(&assembly)?.run()?;
+    let Solution {
+        assembly,
+        trajectory,
+        ..
+    } = scene.solve()?;
 
     let path = std::env::temp_dir().join(format!("actin-export-{}.gsd", std::process::id()));
     Format::Gsd.write(&assembly, &trajectory, "bent", &mut File::create(&path)?)?;

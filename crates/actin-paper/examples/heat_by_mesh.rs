@@ -11,7 +11,7 @@
 
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
 use actin_mechanics::{Interaction, Loads, State, Vectors, rotation};
-use actin_paper::measure::{jackknife, steps_in};
+use actin_paper::measure::{RotationCorrelations, jackknife, steps_in};
 use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Plan, Scene};
 use rayon::prelude::*;
 
@@ -192,7 +192,9 @@ struct Sampler {
     places: Vec<f64>,
     /// Turns are sampled between these distances from the ends, in frames; `None` for clamped filaments.
     margin: Option<usize>,
-    /// Distances in frames.
+    /// Monomers and segments, without cross-sections at ends.
+    frames: Vec<usize>,
+    /// Distances in `frames`.
     apart: [usize; 2],
     tension: f64,
     tensions: u32,
@@ -206,13 +208,15 @@ impl Sampler {
         // Both monomers of a clamp move together.
         let along = |i: usize| rest.points.position.get(i).z.clamp(0.0, length_nm);
         let places = (0..rest.points.len()).map(along).collect();
-        let per_nm = rest.frames.len() as f64 / length_nm;
+        let frames = RotationCorrelations::new(assembly).frames;
+        let per_nm = frames.len() as f64 / length_nm;
         let [margin, near, far] = [MARGIN_NM, NEAR_NM, FAR_NM].map(|nm| rounded(nm * per_nm));
         Self {
             rest,
             length_nm,
             places,
             margin: case.stretch.is_none().then_some(margin),
+            frames,
             apart: [near, far],
             tension: 0.0,
             tensions: 0,
@@ -243,9 +247,12 @@ impl Sampler {
             return;
         };
         let (turned, unturned) = (&state.frames.orientation, &self.rest.frames.orientation);
-        let turn = |i: usize| turned.get(i) * unturned.get(i).inverse();
+        let turn = |k: usize| {
+            let i = self.frames[k];
+            turned.get(i) * unturned.get(i).inverse()
+        };
         for (apart, moments) in self.apart.into_iter().zip(&mut self.moments) {
-            let pairs = unturned.len() - apart - 2 * margin;
+            let pairs = self.frames.len() - apart - 2 * margin;
             for i in margin..margin + pairs {
                 let phi = rotation::log(turn(i).inverse() * turn(i + apart)).z;
                 moments[0] += phi / pairs as f64;

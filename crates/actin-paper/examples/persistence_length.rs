@@ -218,10 +218,12 @@ struct Sums {
 impl Sums {
     /// None yet.
     fn new(assembly: &Assembly, step: f64) -> Self {
+        let turns = RotationCorrelations::new(assembly);
+        let [first, second] = [0, 1].map(|i| assembly.frames[turns.frames[i]].s_nm);
         Self {
-            turns: RotationCorrelations::new(assembly.rest.frames.len()),
+            turns,
             energy: 0.0,
-            spacing: assembly.frames[1].s_nm - assembly.frames[0].s_nm,
+            spacing: second - first,
             step,
         }
     }

@@ -114,8 +114,8 @@ pub enum RunDirectoryError {
     )]
     NoStates(PathBuf),
     /// The scene in the directory is invalid.
-    #[error("{}:{reason}", .0.display(), reason = .1)]
-    Scene(PathBuf, SceneError),
+    #[error(transparent)]
+    Scene(SceneError),
     /// The scene in the directory cannot be built.
     #[error("{}: {reason}", .0.display(), reason = .1)]
     Problem(PathBuf, SceneProblem),

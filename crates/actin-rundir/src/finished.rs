@@ -4,7 +4,6 @@ use crate::names::SCENE;
 use crate::{RunDirectory, RunDirectoryError, StateIter, StoredStates};
 use actin_sim::mechanics::State;
 use actin_sim::{Assembly, At, Scene};
-use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
@@ -75,11 +74,7 @@ fn read_scene(path: &Path) -> Result<Scene, RunDirectoryError> {
     if !file.exists() {
         return Err(RunDirectoryError::NotARun(path.into()));
     }
-    let bytes = fs::read(&file).map_err(RunDirectoryError::io(&file))?;
-    let refused = |error| RunDirectoryError::Scene(file, error);
-    let text = Scene::text(bytes);
-    text.and_then(|text| Scene::from_ron(&text))
-        .map_err(refused)
+    Scene::from_path(file).map_err(RunDirectoryError::Scene)
 }
 
 #[cfg(test)]

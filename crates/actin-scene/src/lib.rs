@@ -1,7 +1,7 @@
 //! Scenes of actin filaments: types of the format, strict reading, validation and defaults.
 //!
-//! A [`Scene`] lists filaments, clamps, loads, linkers and a task. [`Scene::from_ron`] refuses unknown keys, missing keys and
-//! invalid values, each with line and column; [`Scene::to_ron`] writes every default.
+//! A [`Scene`] lists filaments, clamps, loads, linkers and a task. [`Scene::from_path`] and
+//! [`Scene::from_ron`] refuse unknown keys, missing keys and invalid values, each with line and column; [`Scene::to_ron`] writes every default.
 //! Units: nm, pN, ns, rad (degrees for keys that end in `_deg`); mass in ag = 1e-21 kg = pN ns^2/nm.
 
 #[cfg(doctest)]
@@ -13,6 +13,7 @@ mod arrangement;
 mod bead;
 mod brackets;
 mod brownian;
+mod builders;
 mod crosslinkers;
 mod curve;
 mod deserialize;

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::fmt;
+use std::path::PathBuf;
 
 /// Value that breaks a rule of scenes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -86,6 +87,8 @@ impl Problems {
 /// Error of a scene with its position in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
+    /// File, if the scene was read from a path.
+    pub file: Option<PathBuf>,
     /// Line, counted from 1.
     pub line: usize,
     /// Column in characters, counted from 1.
@@ -115,6 +118,7 @@ impl SceneError {
             })
             .collect();
         Self {
+            file: None,
             line,
             column,
             set: None,
@@ -136,6 +140,9 @@ fn cut(text: &str, most: usize) -> Cow<'_, str> {
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(f, "{}:", file.display())?;
+        }
         match &self.set {
             None => write!(f, "{}:{}: {}", self.line, self.column, self.message),
             Some(set) => write!(f, "{set}: {}", self.message),

@@ -39,6 +39,25 @@ impl Scene {
         })
     }
 
+    /// Reads and validates a scene file like [`from_ron`](Self::from_ron). Paths in it are relative to its folder.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or as [`from_ron`](Self::from_ron), with the path.
+    pub fn from_path(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        let path = path.as_ref();
+        let read = || {
+            let unread = |error| SceneError::new((1, 1), &format!("cannot be read: {error}"));
+            let text = Self::text(std::fs::read(path).map_err(unread)?)?;
+            let mut text = SceneText::new(&text);
+            text.resolve_paths(path.parent().unwrap_or(Path::new("")))?;
+            text.scene()
+        };
+        read().map_err(|error| SceneError {
+            file: Some(path.into()),
+            ..error
+        })
+    }
+
     /// Reads and validates a scene. A byte-order mark is skipped. A text that begins with `{` is JSON, and
     /// a text that begins with a key is YAML.
     ///
@@ -171,6 +190,20 @@ mod tests {
         assert!(latin.starts_with("1:4: byte 0xe9 is not UTF-8"), "{latin}");
         let wide = Scene::text(vec![0xff, 0xfe, b'S', 0]).unwrap_err();
         assert!(wide.message.contains("UTF-16"), "{wide}");
+    }
+
+    #[test]
+    fn errors_of_files_have_their_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.ron");
+        let refused = || Scene::from_path(&path).unwrap_err().to_string();
+        let place = format!("{}:1:1: cannot be read", path.display());
+        assert!(refused().starts_with(&place), "{}", refused());
+        std::fs::write(&path, SCENE.replace("title", "name")).unwrap();
+        let place = format!("{}:2:5: unknown key", path.display());
+        assert!(refused().starts_with(&place), "{}", refused());
+        std::fs::write(&path, SCENE).unwrap();
+        assert_eq!(Scene::from_path(&path), Scene::from_ron(SCENE));
     }
 
     #[test]

@@ -155,16 +155,6 @@ impl MonomerChanges {
 }
 
 impl Section {
-    /// Creates a rod with the parameters of its filament.
-    pub fn rod(from_nm: f64, to_nm: f64, segments: Option<usize>) -> Self {
-        Self::Rod {
-            from_nm,
-            to_nm,
-            segments,
-            altered: None,
-        }
-    }
-
     /// Returns whether the section is a rod.
     pub fn is_rod(&self) -> bool {
         matches!(self, Self::Rod { .. })

@@ -48,8 +48,21 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Scene of a free filament without loads.
-    pub fn new(filament: Filament, task: Task) -> Self {
+    /// Creates a scene of a free filament without loads.
+    ///
+    /// ```
+    /// use actin_scene::{Clamp, End, Equilibrium, Filament, Load, Scene, Section};
+    /// let filament = Filament::new(vec![
+    ///     Section::ellipsoids(0.0, 40.0),
+    ///     Section::rod(40.0, 160.0, None),
+    /// ]);
+    /// let scene = Scene::new(filament, Equilibrium::default())
+    ///     .clamp(Clamp::new(End::Start))
+    ///     .load(Load::end_force(End::End, [0.1, 0.0, 0.0]));
+    /// scene.validate()?;
+    /// # Ok::<(), actin_scene::SceneProblem>(())
+    /// ```
+    pub fn new(filament: Filament, task: impl Into<Task>) -> Self {
         Self {
             title: String::new(),
             filament,
@@ -65,7 +78,7 @@ impl Scene {
             burn_in_ns: None,
             output: Output::default(),
             start: None,
-            task,
+            task: task.into(),
         }
     }
 }
@@ -202,19 +215,6 @@ pub struct Clamp {
     /// Directions in which the end can move as a rigid body.
     #[serde(default)]
     pub slides: FreeTranslation,
-}
-
-impl Clamp {
-    /// Wall at an end of filament 0.
-    pub fn new(end: End) -> Self {
-        Self {
-            filament: 0,
-            end,
-            hold: Hold::default(),
-            hinge: None,
-            slides: FreeTranslation::default(),
-        }
-    }
 }
 
 /// Rotational spring between the cross-section at a pinned end and a frame that the path may turn. Its energy

@@ -1,7 +1,8 @@
 //! Assembly and simulation of scenes of actin filaments at two resolutions.
 //!
 //! A [`Scene`] describes filaments, clamps, loads, linkers and the task. [`Assembly::build`]
-//! creates its bodies and interactions; [`build`] also chooses automatic sections. A [`Plan`] selects the time step and runs it into a
+//! creates its bodies and interactions; [`build`] also chooses automatic sections. [`Solve::solve`] runs a scene in memory;
+//! a [`Plan`] selects the time step and runs it into a
 //! [`Sink`]: memory, or the run directory of `actin-rundir`. The [`Outcome`] holds the status and cost. An
 //! [`Ensemble`] runs replicas of a scene in parallel. This is the only crate that depends on all
 //! models; the models do not depend on each other.
@@ -29,6 +30,7 @@ mod notes;
 mod observe;
 mod run;
 pub mod shape;
+mod solution;
 pub mod statistics;
 mod summary;
 pub mod trade;
@@ -77,6 +79,7 @@ pub use run::{
     StableState, StableStates, Status, StepError, StoredRecord, Trajectory, composition,
     near_equilibrium, path_options, solver,
 };
+pub use solution::{Solution, Solve};
 pub use summary::{
     AccuracySummary, EndReaction, EndReactions, EnergySummary, FilamentSummary, FollowingSummary,
     LinkerSummary, ResidualSummary, ShapeSummary, StabilitySummary, StateSummary, StatesSummary,

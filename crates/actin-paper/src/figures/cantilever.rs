@@ -10,9 +10,9 @@ use super::draft::{Column, Draft, number, residuals};
 use super::model::{Model, Resolution, models};
 use super::motion::{RingDown, energy_decays, ring_down};
 use super::texts::Values;
-use crate::run::{Shape, SolvedScene, drag, energy, scenario};
+use crate::run::{Shape, doubtful, energy, residual, scenario, solved};
 use crate::statistics::{largest, sample};
-use actin_sim::{Assembly, End, Equilibrium, Part, Record, Scene, Section, Task};
+use actin_sim::{Assembly, DragModel, End, Equilibrium, Part, Record, Scene, Section, Task};
 
 const LENGTH_NM: f64 = 160.0;
 /// Lengths of rod (nm) in the paper and with `--quick`.
@@ -154,10 +154,8 @@ impl Case {
         let mut statics = scene.clone();
         statics.task = Task::Equilibrium(Equilibrium::default());
         let has_potential = self.model.has_potential();
-        let newton = has_potential
-            .then(|| SolvedScene::new(&statics))
-            .transpose()?;
-        let moved = is_moved.then(|| SolvedScene::new(&scene)).transpose()?;
+        let newton = has_potential.then(|| solved(&statics)).transpose()?;
+        let moved = is_moved.then(|| solved(&scene)).transpose()?;
         let solved = moved
             .as_ref()
             .or(newton.as_ref())
@@ -166,9 +164,9 @@ impl Case {
         let newton = newton.as_ref().map(|n| {
             let tip = tip_drop(&n.assembly, n.last());
             let energy = internal_energy(&n.assembly, n.last());
-            (energy, ((drop - tip).abs(), n.doubtful() == Some([0, 0])))
+            (energy, ((drop - tip).abs(), doubtful(n) == Some([0, 0])))
         });
-        let records = solved.records.iter();
+        let records = solved.records().iter();
         let energies = records.map(|r| (r.at.value(), internal_energy(&solved.assembly, r)));
         let energy: Vec<(f64, f64)> = energies.collect();
         let counts = solved.assembly.counts();
@@ -180,14 +178,14 @@ impl Case {
             newton: newton.map(|n| n.1),
             is_moved,
             energy,
-            total: solved.records.iter().map(total).collect(),
-            work: solved.report.force_evaluations as f64 * (counts.bonds + counts.segments) as f64,
+            total: solved.records().iter().map(total).collect(),
+            work: solved.outcome.force_evaluations as f64 * (counts.bonds + counts.segments) as f64,
             ring_down: self.ring_down(is_moved, &scene, drop)?,
-            shape: solved.shape(),
-            residual: solved.residual(),
-            has_converged: solved.report.has_converged(),
+            shape: Shape::new(solved),
+            residual: residual(solved),
+            has_converged: solved.outcome.has_converged(),
             time_ns: solved.last().at.value(),
-            force_evaluations: solved.report.force_evaluations,
+            force_evaluations: solved.outcome.force_evaluations,
         })
     }
 
@@ -204,11 +202,11 @@ impl Case {
         if !is_moved || !self.swings() {
             return Ok(None);
         }
-        dynamics.drag = drag([SWING_DRAG_PER_NS; 2]);
+        dynamics.drag = DragModel::rates_per_ns([SWING_DRAG_PER_NS; 2]);
         dynamics.duration_ns = SWING_NS;
         dynamics.stop = None;
-        let swung = SolvedScene::new(&scene)?;
-        let records = swung.records.iter();
+        let swung = solved(&scene)?;
+        let records = swung.records().iter();
         let approach: Vec<(f64, f64)> = records
             .map(|record| (record.at.value(), tip_drop(&swung.assembly, record)))
             .collect();

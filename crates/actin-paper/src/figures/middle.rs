@@ -7,7 +7,7 @@ use super::charts::{line, room};
 use super::draft::{Column, Draft, number, residuals};
 use super::texts::ChartText;
 use crate::palette;
-use crate::run::{SolvedScene, scenario};
+use crate::run::{doubtful, energy, pose, residual, scenario, solved};
 use crate::statistics::{largest, sample};
 use actin_draw::{Colour, Mark, Series};
 use actin_sim::shape::{Ribbon, profile};
@@ -152,7 +152,7 @@ impl Case {
     }
 
     fn solve(&self) -> Result<Halves, String> {
-        let mut solved = SolvedScene::new(&self.scene()?)?;
+        let mut solved = solved(&self.scene()?)?;
         let loads = solved.assembly.system.loads().clone();
         let assembly = &solved.assembly;
         let clamp = assembly
@@ -160,7 +160,9 @@ impl Case {
             .iter()
             .find(|c| c.slides == FreeTranslation::Nowhere);
         let tension = clamp.map_or(0.0, |c| -c.reaction(solved.state(), &loads).force_pn.z);
-        let energy = solved.energy(|part| matches!(part, Part::Linker(_)));
+        let energy = energy(&solved.assembly, solved.last(), |part| {
+            matches!(part, Part::Linker(_))
+        });
         let stiffness = assembly.scene.linkers[0].stiffness_pn_per_nm;
         let turn_deg = turn_of_middle(assembly).to_degrees();
         let ([first, second], profile) = halves(assembly, turn_deg.signum());
@@ -176,14 +178,13 @@ impl Case {
             turn_deg: turn_deg.abs(),
             pull_pn: (2.0 * stiffness * energy).sqrt(),
             tension_pn: tension,
-            doubtful: solved
-                .doubtful()
+            doubtful: doubtful(&solved)
                 .ok_or("the equilibrium has no certificate of stability")?
                 .iter()
                 .sum(),
-            residual: solved.residual(),
+            residual: residual(&solved),
             profile,
-            pose: solved.pose(),
+            pose: pose(&solved),
         })
     }
 }

@@ -7,10 +7,10 @@ use super::search::{Basis, LawFit, rooted, sided, stiffened, stretched};
 use super::table::FitData;
 use super::{Options, run};
 use crate::measure::{Specimen, bend_by_couples, stretch_by_force, twist};
-use crate::run::run_to_end;
 use actin_cosserat::StretchLaw;
 use actin_fit::{Fit, Model};
-use actin_sim::{Assembly, Scene};
+use actin_sim::Scene;
+use actin_sim::Solve;
 use std::path::Path;
 
 /// Normal deviates: sums of twelve uniform deviates.
@@ -311,8 +311,7 @@ fn a_scene_reads_the_written_law() {
     let law = std::fs::read_to_string(out.join("rod-law.ron")).unwrap();
     let scene = scene_with(&law);
     let rod = scene.filament.rod.clone();
-    let mut assembly = Assembly::build(&scene).unwrap();
-    run_to_end(&mut assembly).unwrap();
+    scene.solve().unwrap();
 
     let table = FitData::from_csv(&file).unwrap();
     let fits = GroupFits::new(&table).unwrap();

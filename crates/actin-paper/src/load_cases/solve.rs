@@ -4,10 +4,13 @@ use super::case::{Case, Loading, TURNED_NM};
 use super::filament::FilamentModel;
 use crate::centre_line::CentreLine;
 use crate::measure::{Evidence, Specimen, far_end_shift, follow, reaction, twist};
-use crate::run::{SolvedScene, clamp, end_force, free, scenario, shift, stage, turn};
+use crate::run::{doubtful, rolled, scenario, shift};
 use actin_mechanics::{State, Vector3};
 use actin_sim::shape::Ribbon;
-use actin_sim::{Assembly, End, Equilibrium, FreeTranslation, Hold, Part, Scene, Setting, Task};
+use actin_sim::{
+    Assembly, Clamp, End, Equilibrium, FreeTranslation, Hold, Load, Part, Scene, Setting, Solution,
+    Stage, Task,
+};
 use serde::{Deserialize, Serialize};
 
 /// Iteration limit of a rod equilibrium, and the smallest step along its path. Monomers have soft
@@ -97,7 +100,7 @@ pub(super) fn scene(case: &Case, made: &FilamentModel) -> (Scene, usize) {
     let mut before = Vec::new();
     if *turn_deg != 0.0 {
         let turn_deg = turn_deg * case.length_nm() / TURNED_NM;
-        before.push(turn(End::End, [0.0, 0.0, turn_deg]));
+        before.push(Setting::turn(End::End, [0.0, 0.0, turn_deg]));
     }
     // Unit forces on the end; the last one is scaled to each value.
     let is_along = *far_end == Some(FreeTranslation::AlongAxis);
@@ -110,14 +113,16 @@ pub(super) fn scene(case: &Case, made: &FilamentModel) -> (Scene, usize) {
     let count = before.len();
     let forces = forces_pn.iter().map(|&force| factor(last, force));
     let path = before.into_iter().chain(forces);
-    let mut clamps = vec![clamp(End::Start, FreeTranslation::Nowhere)];
-    clamps.extend(far_end.map(|slides| clamp(End::End, slides)));
+    let mut clamps = vec![Clamp::new(End::Start)];
+    clamps.extend(far_end.map(|slides| Clamp::new(End::End).sliding(slides)));
     let scene = Scene {
         clamps,
-        loads: directions.into_iter().map(end_force).collect(),
-        path: path.map(|setting| stage([setting])).collect(),
-        task: Task::Equilibrium(solver(made)),
-        ..free("Load case", made.filament(case.length_nm()))
+        loads: directions
+            .into_iter()
+            .map(|force| Load::end_force(End::End, force))
+            .collect(),
+        path: path.map(|setting| Stage::new([setting])).collect(),
+        ..Scene::new(made.filament(case.length_nm()), solver(made))
     };
     (scene, count)
 }
@@ -205,14 +210,14 @@ fn linked(figure: u32, made: &FilamentModel) -> Result<CaseSolution, String> {
         accept_jumps: false,
         ..solver(made)
     });
-    let solved = SolvedScene::rolled(&scene)?;
-    let energy = |solved: &SolvedScene| solved.last().potential_pn_nm();
+    let solved = rolled(&scene)?;
+    let energy = |solved: &Solution| solved.last().potential_pn_nm();
     let lowest = solved.iter().min_by(|a, b| energy(a).total_cmp(&energy(b)));
     let lowest = lowest.ok_or("no start")?;
     Ok(CaseSolution {
         values: vec![("energy (pN nm)".to_owned(), energy(lowest))],
         line: Some(CentreLine::new(&lowest.assembly, lowest.state())),
-        doubtful: usize::from(lowest.doubtful() != Some([0, 0])),
+        doubtful: usize::from(doubtful(lowest) != Some([0, 0])),
         ..CaseSolution::default()
     })
 }
@@ -230,10 +235,10 @@ fn buckled(length_nm: f64, turn_deg: f64, made: &FilamentModel) -> Result<CaseSo
     for linker in &mut scene.linkers {
         linker.at_nm = 0.5 * length_nm;
     }
-    let turned = |end, turn_deg: f64| turn(end, [0.0, 0.0, turn_deg]);
+    let turned = |end, turn_deg: f64| Setting::turn(end, [0.0, 0.0, turn_deg]);
     let stages = [
-        stage([turned(End::Start, -turn_deg), turned(End::End, turn_deg)]),
-        stage([shift(End::Start, PUSHED_NM), shift(End::End, -PUSHED_NM)]),
+        Stage::new([turned(End::Start, -turn_deg), turned(End::End, turn_deg)]),
+        Stage::new([shift(End::Start, PUSHED_NM), shift(End::End, -PUSHED_NM)]),
     ];
     let mut failures = Vec::new();
     let mut lowest: Option<(f64, CaseSolution)> = None;

@@ -3,9 +3,9 @@
 use super::follow::{Evidence, PathPoint};
 use super::sweep::{Curve, Protocol, far_end_shift, force, reaction};
 use super::{MeasureError, Specimen};
-use crate::run::{shift, turn};
+use crate::run::shift;
 use actin_mechanics::Vector3;
-use actin_sim::{Assembly, End, FreeTranslation};
+use actin_sim::{Assembly, End, FreeTranslation, Setting};
 
 /// A filament held at an angle of twist with free length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +39,7 @@ pub struct TwistPoint {
 /// arXiv 2203.01284, Appendix B, Tables 3 and 5.
 pub fn twist(specimen: &Specimen, turns_deg: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
     let protocol = Protocol::new(specimen, Some(FreeTranslation::AlongAxis), None);
-    let settings = |deg: f64| vec![turn(End::End, [0.0, 0.0, deg])];
+    let settings = |deg: f64| vec![Setting::turn(End::End, [0.0, 0.0, deg])];
     protocol.sweep("turn_deg", turns_deg, settings, read_twist)
 }
 

@@ -4,10 +4,11 @@
 //! is the tilt of the axis, `phi` the rotation about it, `lp` the persistence length and `C` the
 //! twisting rigidity. The mean `<phi>` is not zero, since heat untwists filaments.
 
-use crate::run::{drag, free};
 use actin_integrate::{Bath, Composition, Drag, advance_in, largest_frequency, stable_step};
 use actin_mechanics::{State, UnitQuaternion, rotation};
-use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Dynamics, Filament, Task, Thermal};
+use actin_sim::{
+    Assembly, BOLTZMANN_PN_NM_PER_K, BodyKind, DragModel, Dynamics, Filament, Scene, Thermal,
+};
 
 const ROOM_K: f64 = 298.0;
 /// Thermal energy at 298 K (pN nm).
@@ -23,6 +24,8 @@ const SAMPLES: u32 = 400;
 /// Means over samples of one filament, indexed by the separation of frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RotationCorrelations {
+    /// Indices of the frames, which are equally spaced.
+    pub frames: Vec<usize>,
     /// `<cos theta>`.
     pub cosine: Vec<f64>,
     /// `<phi>` (rad) of each pair of frames.
@@ -32,12 +35,25 @@ pub struct RotationCorrelations {
 }
 
 impl RotationCorrelations {
-    /// Zero means for a filament with this number of frames.
-    pub fn new(frames: usize) -> Self {
+    /// Zero means for the monomers and segments of a filament, without the cross-sections at its ends and junctions,
+    /// which are closer to the next frame.
+    pub fn new(assembly: &Assembly) -> Self {
+        let is_sampled = |&i: &usize| {
+            matches!(
+                assembly.frames[i].kind,
+                BodyKind::Monomer | BodyKind::Segment
+            )
+        };
+        Self::between((0..assembly.frames.len()).filter(is_sampled).collect())
+    }
+
+    fn between(frames: Vec<usize>) -> Self {
+        let count = frames.len();
         Self {
-            cosine: vec![0.0; frames],
-            mean_twist: (0..frames).map(|k| vec![0.0; frames - k]).collect(),
-            square_twist: vec![0.0; frames],
+            frames,
+            cosine: vec![0.0; count],
+            mean_twist: (0..count).map(|k| vec![0.0; count - k]).collect(),
+            square_twist: vec![0.0; count],
         }
     }
 
@@ -46,9 +62,8 @@ impl RotationCorrelations {
     pub fn add(&mut self, rest: &State, state: &State, samples: usize) {
         let (q0, q) = (&rest.frames.orientation, &state.frames.orientation);
         // Rotations from rest, in the axes of the filament at rest.
-        let turns: Vec<UnitQuaternion> = (0..q.len())
-            .map(|i| q.get(i) * q0.get(i).inverse())
-            .collect();
+        let frames = self.frames.iter();
+        let turns: Vec<UnitQuaternion> = frames.map(|&i| q.get(i) * q0.get(i).inverse()).collect();
         for k in 0..turns.len() {
             let pairs = turns.iter().zip(&turns[k..]);
             let weight = 1.0 / (pairs.len() * samples) as f64;
@@ -91,15 +106,14 @@ pub(crate) fn turns_in_bath(
     (scheme, share): (&Composition, f64),
     replica: u64,
 ) -> Result<RotationCorrelations, String> {
-    let mut scene = free("Free filament in a heat bath", filament);
-    scene.task = Task::Dynamics(heated(replica + 1));
+    let scene = Scene::new(filament, heated(replica + 1));
     let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
     let frequency = largest_frequency(&assembly.system).map_err(|e| e.to_string())?;
     let step = stable_step(scheme, frequency, share).map_err(|e| e.to_string())?;
     let drag = Drag::new(DRAG, DRAG).map_err(|e| e.to_string())?;
     let bath = Bath::new(drag, ROOM_PN_NM, replica + 1).map_err(|e| e.to_string())?;
     let (warm_up, apart) = (steps_in(WARM_UP_NS, step), steps_in(APART_NS, step));
-    let mut turns = RotationCorrelations::new(assembly.rest.frames.len());
+    let mut turns = RotationCorrelations::new(&assembly);
     advance_in(&mut assembly.system, scheme, step, warm_up, &bath, 0);
     for sample in 0..SAMPLES {
         let first = warm_up + u64::from(sample) * apart;
@@ -112,7 +126,7 @@ pub(crate) fn turns_in_bath(
 /// Motion in a heat bath at 298 K, which selects the law of rods.
 fn heated(seed: u64) -> Dynamics {
     Dynamics {
-        drag: drag([DRAG; 2]),
+        drag: DragModel::rates_per_ns([DRAG; 2]),
         thermal: Some(Thermal {
             temperature_k: ROOM_K,
             seed,
@@ -195,7 +209,7 @@ mod tests {
         };
         let rest = state([Vector3::zeros(); 3]);
         let (tilt, twist) = (Vector3::x() * 0.3, Vector3::z() * 0.4);
-        let mut turns = RotationCorrelations::new(3);
+        let mut turns = RotationCorrelations::between(vec![0, 1, 2]);
         turns.add(&rest, &state([Vector3::zeros(), tilt, twist]), 1);
         assert!((turns.cosine[0] - 1.0).abs() < 1e-15 && turns.square_twist[0].abs() < 1e-15);
         // Separation 2: first and third only.

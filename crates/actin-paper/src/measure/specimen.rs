@@ -1,9 +1,8 @@
 //! Specimens of the measuring protocols.
 
-use crate::run::free;
 use actin_sim::{
     Clamp, End, Equilibrium, Filament, FreeTranslation, Hold, Load, Monomers, RodModel, Scene,
-    Section, Stage, Task,
+    Section, Stage,
 };
 
 /// A filament with its clamps and the solver of its equilibria.
@@ -37,7 +36,7 @@ impl Specimen {
 
     /// A filament of monomers; its length is rounded to whole monomers.
     pub fn ellipsoids(length_nm: f64, monomers: Monomers) -> Self {
-        let section = crate::run::monomers(0.0, length_nm);
+        let section = Section::ellipsoids(0.0, length_nm);
         Self::from_section(section, monomers, RodModel::default())
     }
 
@@ -68,8 +67,7 @@ impl Specimen {
             clamps,
             loads,
             path,
-            task: Task::Equilibrium(self.solver.clone()),
-            ..free("Measurement", self.filament.clone())
+            ..Scene::new(self.filament.clone(), self.solver.clone())
         }
     }
 

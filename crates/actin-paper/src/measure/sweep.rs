@@ -2,9 +2,8 @@
 
 use super::follow::{PathPoint, follow};
 use super::{MeasureError, Specimen};
-use crate::run::{end_force, stage};
 use actin_mechanics::{Loads, State, Vector3};
-use actin_sim::{Assembly, End, FreeTranslation, Reaction, Scene, Setting, Stage};
+use actin_sim::{Assembly, End, FreeTranslation, Load, Reaction, Scene, Setting, Stage};
 
 /// Points of a protocol, in ascending order of the prescribed value or in the requested order.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +48,11 @@ impl<'a> Protocol<'a> {
     }
 
     fn scene(&self, path: Vec<Stage>) -> Scene {
-        let loads = self.force.map(end_force).into_iter().collect();
+        let loads = self
+            .force
+            .map(|force| Load::end_force(End::End, force))
+            .into_iter()
+            .collect();
         self.specimen.scene(self.far_end, loads, path)
     }
 
@@ -99,7 +102,7 @@ impl<'a> Protocol<'a> {
         settings: impl Fn(f64) -> Vec<Setting>,
         read: impl Fn(&Assembly, f64, &PathPoint) -> P,
     ) -> Result<Curve<P>, MeasureError> {
-        let path = values.iter().map(|&value| stage(settings(value)));
+        let path = values.iter().map(|&value| Stage::new(settings(value)));
         let course = follow(&self.scene(path.collect()))?;
         let stops = values.iter().zip(&course.stops);
         let points = stops.map(|(&value, stop)| read(&course.assembly, value, stop));

@@ -2,10 +2,7 @@
 
 use super::sweep::far_end_shift;
 use super::*;
-use crate::run::run_to_end;
-use actin_sim::{
-    Assembly, Filament, ForceLaw, Hold, Monomers, RodLaw, RodModel, Scene, Section, Summary,
-};
+use actin_sim::{End, Filament, ForceLaw, Hold, Monomers, RodLaw, RodModel, Scene, Section, Solve};
 use std::f64::consts::PI;
 
 /// Rise and distance from the axis (nm), turn (rad) of the default monomers.
@@ -183,16 +180,12 @@ fn mixed_filaments_are_measured_like_any_other() {
 fn scenes_give_what_the_protocols_give() {
     let run = |name: &str| {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/rigidity/");
-        let text = std::fs::read_to_string(format!("{folder}{name}.ron")).unwrap();
-        let scene = Scene::from_ron(&text).unwrap();
-        let mut assembly = Assembly::build(&scene).unwrap();
-        let (trajectory, report) = run_to_end(&mut assembly).unwrap();
-        let last = trajectory.records.last().unwrap();
-        let summary = Summary::new(&assembly, last, &report);
-        let shift = far_end_shift(&assembly, &last.state).z;
+        let scene = Scene::from_path(format!("{folder}{name}.ron")).unwrap();
+        let solution = scene.solve().unwrap();
+        let assembly = &solution.assembly;
         (
-            summary.end_reactions.end.unwrap(),
-            shift,
+            solution.end_reaction(End::End).unwrap(),
+            far_end_shift(assembly, solution.state()).z,
             assembly.length_nm(),
         )
     };

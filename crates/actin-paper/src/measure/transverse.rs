@@ -4,9 +4,8 @@ use super::elastica::rigidity_ratio;
 use super::follow::{Evidence, PathPoint};
 use super::sweep::{Curve, Protocol, across, check_finite, far_end_shift, force, reaction};
 use super::{MeasureError, Specimen};
-use crate::run::turn;
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
-use actin_sim::{Assembly, End, FreeTranslation};
+use actin_sim::{Assembly, End, FreeTranslation, Setting};
 use std::f64::consts::TAU;
 
 /// A cantilever under a tip force.
@@ -87,7 +86,12 @@ pub fn bend_by_couples(
     let axis = across(azimuth_deg);
     let protocol = Protocol::new(specimen, Some(FreeTranslation::Freely), None);
     let length = protocol.length_nm()?;
-    let settings = |kappa: f64| vec![turn(End::End, axis * (kappa * length).to_degrees())];
+    let settings = |kappa: f64| {
+        vec![Setting::turn(
+            End::End,
+            axis * (kappa * length).to_degrees(),
+        )]
+    };
     let read = |assembly: &Assembly, curvature: f64, stop: &PathPoint| {
         let torque_at = |end| reaction(assembly, &stop.state, end).torque_pn_nm;
         let far = torque_at(End::End);
@@ -192,7 +196,7 @@ pub fn bend_twisted(
     let twist = Vector3::z() * (twist_rad_per_nm * length);
     let settings = |tilt: f64| {
         let turned = composed(axis * (tilt * length), twist);
-        vec![turn(End::End, turned.map(f64::to_degrees))]
+        vec![Setting::turn(End::End, turned.map(f64::to_degrees))]
     };
     let read = |assembly: &Assembly, tilt: f64, stop: &PathPoint| {
         let far = reaction(assembly, &stop.state, End::End).torque_pn_nm;

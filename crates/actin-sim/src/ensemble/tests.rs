@@ -1,6 +1,7 @@
 //! Comparison of ensembles with single runs.
 
 use super::*;
+use crate::Solve;
 use crate::scene::SceneProblem;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -53,8 +54,7 @@ fn results_equal_single_runs_on_any_number_of_threads() {
             for what in RandomPart::ALL {
                 scene.reseed(what, seed);
             }
-            let assembly = crate::Assembly::build(&scene).unwrap();
-            let (alone, _) = Plan::new(&assembly).unwrap().run().unwrap();
+            let alone = scene.solve().unwrap().trajectory;
             assert_eq!(records, alone.records);
         }
     }

@@ -91,7 +91,7 @@ pub(super) fn values(view: &View<'_>, filament: usize, at_nm: Option<f64>) -> Ve
 
 #[cfg(test)]
 mod tests {
-    use crate::{Assembly, Plan, Scene};
+    use crate::{Scene, Solve};
 
     /// A force at the tip is transmitted by monomers, junction and rod. The bending moment is the force times the
     /// lever arm, and largest at the wall.
@@ -106,10 +106,9 @@ mod tests {
             observe: [InternalLoad(at_nm: 20.0), InternalLoad(at_nm: 73.0), InternalLoad()],
             task: Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-8),
         )";
-        let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
-        let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
-        let record = trajectory.records.last().unwrap();
-        let columns = crate::observed_columns(&assembly);
+        let solution = Scene::from_ron(text).unwrap().solve().unwrap();
+        let (assembly, record) = (&solution.assembly, solution.last());
+        let columns = crate::observed_columns(assembly);
         let get = |name: &str| {
             let found = columns.iter().position(|column| column == name);
             record.observed[found.unwrap_or_else(|| panic!("no column {name}: {columns:?}"))]
@@ -128,7 +127,7 @@ mod tests {
         let largest = |name: &str| get(&format!("internal_load[0]_largest_{name}"));
         assert!(largest("moment_at_nm") < 2.8);
         // The interface between the held monomers has the load of the start, the free end the load of the tip.
-        let profile = crate::shape::profile(&assembly, &record.state);
+        let profile = crate::shape::profile(assembly, &record.state);
         for point in &profile {
             let force = point.load.force_pn.norm();
             assert!((force - 1.0).abs() < 1e-6, "{}: {force}", point.s_nm);

@@ -183,7 +183,7 @@ impl<'a> StepCheck<'a> {
 #[cfg(test)]
 mod tests {
     use super::StepError;
-    use crate::{Assembly, BOLTZMANN_PN_NM_PER_K, Plan, Record, Scene, Sink};
+    use crate::{Assembly, BOLTZMANN_PN_NM_PER_K, Plan, Record, Scene, Sink, Solve};
     use actin_mechanics::Loads;
 
     const FILAMENTS: usize = 20;
@@ -192,9 +192,12 @@ mod tests {
     /// Errors of a run of free filaments.
     fn errors(steps: f64, keys: &str) -> Vec<StepError> {
         let text = scene(steps, 1e4, keys);
-        let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
-        let (_, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
-        outcome.step_errors
+        Scene::from_ron(&text)
+            .unwrap()
+            .solve()
+            .unwrap()
+            .outcome
+            .step_errors
     }
 
     /// Free filaments in steps of `step_ns`, with more keys of the scene.

@@ -62,7 +62,7 @@ impl FilamentSummary {
 }
 
 /// End whose tip is reported: the last one, unless it is clamped and the first one is free.
-fn reported_tip(assembly: &Assembly, filament: usize) -> End {
+pub(crate) fn reported_tip(assembly: &Assembly, filament: usize) -> End {
     let is_clamped = |end| assembly.clamp_at(filament, end).is_some();
     if is_clamped(End::End) && !is_clamped(End::Start) {
         End::Start

@@ -13,6 +13,7 @@ mod thermal;
 mod warnings;
 
 pub use energy::EnergySummary;
+pub(crate) use filament::reported_tip;
 pub use filament::{EndReaction, EndReactions, FilamentSummary, ShapeSummary};
 pub use following::FollowingSummary;
 pub use linkers::LinkerSummary;

@@ -46,7 +46,7 @@ mod tests {
     use super::*;
     use crate::scene::RodLaw;
     use crate::summary::tests;
-    use crate::{Scene, Summary, Trajectory};
+    use crate::{DragModel, Scene, Summary, Trajectory};
 
     /// The second half of 5, 1 and 3 pN nm has a mean of 2 pN nm.
     #[test]
@@ -64,6 +64,7 @@ mod tests {
             seed: u64::MAX,
         };
         dynamics.thermal = Some(thermal);
+        dynamics.drag = DragModel::rates_per_ns([1.0; 2]);
         // Rods under this law have the same bodies in heat.
         scene.filament.rod.law = RodLaw::Constant;
         let warm = Assembly::build(&scene).unwrap();

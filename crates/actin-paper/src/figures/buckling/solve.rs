@@ -1,12 +1,12 @@
 //! Equilibria, damped motions and observables of a case.
 
 use super::case::Case;
-use crate::run::{SolvedScene, drag};
+use crate::run::{doubtful, energy, pose, residual, solved};
 use actin_mechanics::State;
 use actin_sim::shape::Ribbon;
 use actin_sim::{
-    Assembly, Dynamics, End, Equilibrium, ForceLaw, Integrator, Part, StableStates, StopTolerances,
-    Task,
+    Assembly, DragModel, Dynamics, End, Equilibrium, ForceLaw, Integrator, Part, Solution,
+    StableStates, StopTolerances, Task,
 };
 use actin_view::Pose;
 
@@ -90,7 +90,7 @@ impl Outcome {
 
 pub(super) fn outcome(case: &Case) -> Result<Outcome, String> {
     let found = if case.model.has_potential() {
-        case.scene().and_then(|scene| SolvedScene::new(&scene))
+        case.scene().and_then(|scene| solved(&scene))
     } else {
         rest(case)
     };
@@ -111,13 +111,13 @@ fn moved(case: &Case) -> Result<Motion, String> {
     let mut scene = case.scene()?;
     // Approximately critical damping of the slowest bending mode.
     scene.task = Task::Dynamics(damped(3000.0, [0.3, 0.3]));
-    let moved = SolvedScene::new(&scene)?;
+    let moved = solved(&scene)?;
     scene.path.clear();
     scene.task = Task::Equilibrium(Equilibrium::default());
     let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
     *assembly.system.state_mut() = moved.state().clone();
     Ok(Motion {
-        nearest: measured(case, SolvedScene::run(assembly)?),
+        nearest: measured(case, Solution::new(assembly).map_err(|e| e.to_string())?),
         end: measured(case, moved),
     })
 }
@@ -126,10 +126,10 @@ fn moved(case: &Case) -> Result<Motion, String> {
 ///
 /// Such loads feed energy into rotations. With a rotational drag rate of 0.3 per ns, 10 of 32 filaments diverge and 4
 /// do not come to rest. Rotational drag has little effect on bending, because moments of inertia are small.
-fn rest(case: &Case) -> Result<SolvedScene, String> {
+fn rest(case: &Case) -> Result<Solution, String> {
     let mut scene = case.scene()?;
     scene.filament.rod.force_law = ForceLaw::EnergyGradient;
-    let from = SolvedScene::new(&scene)?;
+    let from = solved(&scene)?;
     let mut scene = case.scene()?;
     scene.path.clear();
     scene.task = Task::Dynamics(damped(1000.0, [1.0, 30.0]));
@@ -141,7 +141,7 @@ fn rest(case: &Case) -> Result<SolvedScene, String> {
         start.add_control(0.0);
     }
     *assembly.system.state_mut() = start;
-    SolvedScene::run(assembly)
+    Solution::new(assembly).map_err(|e| e.to_string())
 }
 
 /// Damped dynamics of at most `duration_ns`, with translational and rotational drag rates (1/ns).
@@ -149,7 +149,7 @@ fn damped(duration_ns: f64, rates_per_ns: [f64; 2]) -> Dynamics {
     Dynamics {
         integrator: Integrator::PositionVerlet,
         step_safety: 0.9,
-        drag: drag(rates_per_ns),
+        drag: DragModel::rates_per_ns(rates_per_ns),
         thermal: None,
         stop: Some(StopTolerances {
             force_pn: STOP,
@@ -160,17 +160,17 @@ fn damped(duration_ns: f64, rates_per_ns: [f64; 2]) -> Dynamics {
     }
 }
 
-fn measured(case: &Case, mut solved: SolvedScene) -> Outcome {
-    let found = solved.report.equilibrium.as_ref();
+fn measured(case: &Case, mut solved: Solution) -> Outcome {
+    let found = solved.outcome.equilibrium.as_ref();
     Outcome {
         case: *case,
         states: found.and_then(|f| f.states.as_ref()).map(OtherStates::new),
-        doubtful: solved.doubtful(),
+        doubtful: doubtful(&solved),
         search: found.map(|f| (f.newton_iterations, f.points)),
         time_ns: solved.last().at.value(),
-        force_evaluations: solved.report.force_evaluations,
-        residual: solved.residual(),
-        pose: solved.pose().without_linkers(),
+        force_evaluations: solved.outcome.force_evaluations,
+        residual: residual(&solved),
+        pose: pose(&solved).without_linkers(),
         measured: BuckledState::new(case, &mut solved),
     }
 }
@@ -188,7 +188,7 @@ impl OtherStates {
 }
 
 impl BuckledState {
-    fn new(case: &Case, solved: &mut SolvedScene) -> Self {
+    fn new(case: &Case, solved: &mut Solution) -> Self {
         let loads = solved.assembly.system.loads().clone();
         let (assembly, state) = (&solved.assembly, solved.state());
         let end = assembly.clamps.iter().find(|clamp| clamp.end == End::End);
@@ -198,13 +198,19 @@ impl BuckledState {
         let ribbon = Ribbon::new(assembly, state);
         let beyond = assembly.beyond_range(state).into_iter();
         let beyond = beyond.filter(|b| !b.is_strain());
-        let centre_line = solved.shape().line;
+        let centre_line: Vec<[f64; 3]> = solved
+            .centre_line_nm()
+            .into_iter()
+            .map(Into::into)
+            .collect();
         let distances = centre_line.iter().map(|[x, y, _]| x.hypot(*y));
         Self {
             height_nm: distances.fold(0.0, f64::max),
             couple_pn_nm: couple * case.sign(),
             force_pn: -force,
-            energy_pn_nm: solved.energy(|part| !matches!(part, Part::Load(_) | Part::Linker(_))),
+            energy_pn_nm: energy(&solved.assembly, solved.last(), |part| {
+                !matches!(part, Part::Load(_) | Part::Linker(_))
+            }),
             beyond_per_nm: beyond.map(|b| b.value.abs()).reduce(f64::max),
             link_turns: f64::from(2 * case.turn_deg) / 360.0,
             twist_turns: ribbon.twist(),

@@ -2,8 +2,8 @@
 
 use super::Case;
 use crate::centre_line::CentreLine;
-use crate::run::{Shape, SolvedScene};
-use actin_sim::{Assembly, Equilibrium, Part, Scene, Task};
+use crate::run::{Shape, doubtful, energy, residual, rolled, solved};
+use actin_sim::{Assembly, Equilibrium, Part, Scene, Solution, Task};
 
 /// Tolerance of the energies of equal equilibria (pN nm). The effect of a residual of 1e-7 is much smaller.
 pub(super) const SAME_PN_NM: f64 = 1e-3;
@@ -55,7 +55,7 @@ pub(super) struct Outcome {
 impl Outcome {
     pub(super) fn new(case: &Case, moving: bool) -> Result<Self, String> {
         let scene = case.scene()?;
-        let rolled = SolvedScene::rolled(&statics(&scene));
+        let rolled = rolled(&statics(&scene));
         let rolled = rolled.map_err(|error| format!("Newton: {error}"))?;
         let mut found: Vec<Balance> = rolled.iter().map(describe).collect();
         let starts = found.iter().map(|b| b.energy).collect();
@@ -93,22 +93,24 @@ fn statics(scene: &Scene) -> Scene {
     }
 }
 
-fn describe(solved: &SolvedScene) -> Balance {
+fn describe(solved: &Solution) -> Balance {
     let (assembly, state) = (&solved.assembly, solved.state());
-    let known = solved.report.equilibrium.as_ref();
+    let known = solved.outcome.equilibrium.as_ref();
     let middle = assembly.linkers[1].site().frame();
     let turned = state.frames.orientation.get(middle)
         * assembly.rest.frames.orientation.get(middle).inverse();
     let linkers = || assembly.linkers.iter();
     Balance {
         energy: solved.last().potential_pn_nm(),
-        linkers: solved.energy(|part| matches!(part, Part::Linker(_))),
-        is_stable: solved.doubtful() == Some([0, 0]),
+        linkers: energy(&solved.assembly, solved.last(), |part| {
+            matches!(part, Part::Linker(_))
+        }),
+        is_stable: doubtful(solved) == Some([0, 0]),
         lowest: known.and_then(|e| e.lowest_eigenvalue),
         iterations: known.map_or(0, |e| e.newton_iterations),
-        residual: solved.residual(),
+        residual: residual(solved),
         centre_line: CentreLine::new(assembly, state),
-        shape: solved.shape(),
+        shape: Shape::new(solved),
         anchors: linkers().map(|l| l.end_position(state).into()).collect(),
         forces: linkers().map(|l| l.force(state).norm()).collect(),
         roll: turned.angle().to_degrees(),
@@ -116,22 +118,22 @@ fn describe(solved: &SolvedScene) -> Balance {
 }
 
 fn motion(scene: &Scene) -> Result<Motion, String> {
-    let moved = SolvedScene::new(scene).map_err(|error| format!("dynamics: {error}"))?;
+    let moved = solved(scene).map_err(|error| format!("dynamics: {error}"))?;
     let mut assembly = Assembly::build(&statics(scene)).map_err(|e| e.to_string())?;
     *assembly.system.state_mut() = moved.state().clone();
-    let limit = SolvedScene::run(assembly).map_err(|error| format!("Newton: {error}"))?;
+    let limit = Solution::new(assembly).map_err(|error| format!("Newton: {error}"))?;
     let limit = describe(&limit);
     let end = CentreLine::new(&moved.assembly, moved.state());
-    let energies = moved.records.iter().map(|record| {
+    let energies = moved.records().iter().map(|record| {
         let potential = record.potential_pn_nm();
         let total = potential + record.kinetic_pn_nm;
         [record.at.value(), total, potential]
     });
     Ok(Motion {
         energy: energies.collect(),
-        has_converged: moved.report.has_converged(),
+        has_converged: moved.outcome.has_converged(),
         time_ns: moved.last().at.value(),
-        force_evaluations: moved.report.force_evaluations,
+        force_evaluations: moved.outcome.force_evaluations,
         from_limit_nm: end.farthest_from(&limit.centre_line).0,
         limit,
     })

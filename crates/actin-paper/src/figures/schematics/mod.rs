@@ -7,11 +7,11 @@ mod style;
 
 use super::draft::{Draft, residuals};
 use super::texts::Values;
-use crate::run::{SolvedScene, scenario};
+use crate::run::{doubtful, pose, residual, scenario, solved};
 use actin_draw::report::{Picture, save};
 use actin_mechanics::Vector3;
 use actin_sim::shape::Ribbon;
-use actin_sim::{BodyKind, End};
+use actin_sim::{BodyKind, End, Solution};
 use actin_view::{Pose, bodies};
 use sheet::Sheet;
 use std::collections::BTreeSet;
@@ -45,7 +45,7 @@ pub(super) fn figure1(draft: &mut Draft<'_>) -> Result<(), String> {
 /// ```
 ///
 /// Squares are means over the monomers.
-fn radius_and_rise_nm(solved: &SolvedScene) -> (f64, f64) {
+fn radius_and_rise_nm(solved: &Solution) -> (f64, f64) {
     let points = solved.assembly.points.iter().enumerate();
     let monomers = points.filter(|(_, info)| info.kind == BodyKind::Monomer);
     let centres: Vec<Vector3> = monomers
@@ -111,16 +111,16 @@ pub(super) fn figure3(draft: &mut Draft<'_>) -> Result<(), String> {
 }
 
 /// Sheet of the figure, and its scenes in equilibrium.
-fn solve(draft: &Draft<'_>) -> Result<(&'static Sheet, Vec<SolvedScene>), String> {
+fn solve(draft: &Draft<'_>) -> Result<(&'static Sheet, Vec<Solution>), String> {
     let sheet = Sheet::of(draft.id)?;
     let solved = draft.solve(&sheet.scenes, |name| {
         let scene = scenario(&format!("{name}.ron"))?;
-        SolvedScene::new(&scene).map_err(|e| format!("{name}.ron: {e}"))
+        solved(&scene).map_err(|e| format!("{name}.ron: {e}"))
     });
     Ok((sheet, solved?))
 }
 
-fn finish(draft: &mut Draft<'_>, sheet: &Sheet, solved: &[SolvedScene]) -> Result<(), String> {
+fn finish(draft: &mut Draft<'_>, sheet: &Sheet, solved: &[Solution]) -> Result<(), String> {
     let file = format!("{}.svg", draft.id);
     save(draft.out, &file, &sheet.svg(draft.id, solved))?;
     let caption = sheet.caption.clone();
@@ -134,7 +134,7 @@ fn finish(draft: &mut Draft<'_>, sheet: &Sheet, solved: &[SolvedScene]) -> Resul
 }
 
 /// Adds rows of counts of bodies, and returns the state for the viewer.
-fn counted(draft: &mut Draft<'_>, name: &str, solved: &SolvedScene) -> (String, String, f64, Pose) {
+fn counted(draft: &mut Draft<'_>, name: &str, solved: &Solution) -> (String, String, f64, Pose) {
     let name = name.rsplit('/').next().unwrap_or(name);
     let counts = solved.assembly.counts();
     for (quantity, number) in [
@@ -149,12 +149,12 @@ fn counted(draft: &mut Draft<'_>, name: &str, solved: &SolvedScene) -> (String, 
     let rods = counts.segments as f64;
     // Approximate share: segments are up to 10 nm long, monomers have a rise of 2.7 nm.
     let share = rods / (rods + counts.monomers as f64);
-    ("all".to_owned(), name.to_owned(), share, solved.pose())
+    ("all".to_owned(), name.to_owned(), share, pose(solved))
 }
 
-fn settings(draft: &mut Draft<'_>, names: &[String], solved: &[SolvedScene]) -> Result<(), String> {
+fn settings(draft: &mut Draft<'_>, names: &[String], solved: &[Solution]) -> Result<(), String> {
     let names: Vec<String> = names.iter().map(|name| format!("{name}.ron")).collect();
-    let stable = solved.iter().filter(|s| s.doubtful() == Some([0, 0]));
+    let stable = solved.iter().filter(|s| doubtful(s) == Some([0, 0]));
     let seeds = solved
         .iter()
         .map(|s| s.assembly.scene.filament.monomers.seed);
@@ -162,10 +162,7 @@ fn settings(draft: &mut Draft<'_>, names: &[String], solved: &[SolvedScene]) -> 
     let seeds: Vec<String> = seeds.iter().map(u64::to_string).collect();
     let values: Values<'_> = &[
         ("files", &names.join(", ")),
-        (
-            "residuals",
-            &residuals(solved.iter().map(SolvedScene::residual)),
-        ),
+        ("residuals", &residuals(solved.iter().map(residual))),
         ("stable", &stable.count()),
         ("count", &solved.len()),
         ("seeds", &seeds.join(", ")),

@@ -3,8 +3,8 @@
 use super::annotations;
 use super::style::LegendPart;
 use crate::palette;
-use crate::run::SolvedScene;
 use actin_draw::scene3d::{self, Camera, Item, Label};
+use actin_sim::Solution;
 use actin_view::{Attitude, Drawing, bodies};
 use serde::Deserialize;
 use std::sync::LazyLock;
@@ -89,7 +89,7 @@ impl Sheet {
         found.ok_or_else(|| format!("`data/schematics.ron` has no sheet {id}"))
     }
 
-    pub(super) fn svg(&self, prefix: &'static str, solved: &[SolvedScene]) -> String {
+    pub(super) fn svg(&self, prefix: &'static str, solved: &[Solution]) -> String {
         let [width, height] = self.size;
         let sheet = scene3d::Sheet {
             prefix,
@@ -103,14 +103,14 @@ impl Sheet {
 }
 
 impl Panel {
-    pub(super) fn drawing<'a>(&self, solved: &'a [SolvedScene]) -> Drawing<'a> {
+    pub(super) fn drawing<'a>(&self, solved: &'a [Solution]) -> Drawing<'a> {
         let solved = &solved[self.scene];
         let whole = Drawing::new(&solved.assembly, solved.state(), palette::chosen());
         let range_nm = self.range_nm.unwrap_or(whole.range_nm);
         Drawing { range_nm, ..whole }
     }
 
-    fn draw(&self, solved: &[SolvedScene]) -> scene3d::Panel {
+    fn draw(&self, solved: &[Solution]) -> scene3d::Panel {
         let drawn = self.drawing(solved);
         let layers = self.layers.iter();
         let items: Vec<Item> = layers

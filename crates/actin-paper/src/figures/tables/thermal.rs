@@ -3,9 +3,8 @@
 use super::ensemble::Kind;
 use crate::figures::draft::Draft;
 use crate::measure::{far_lengths, turns_in_bath};
-use crate::run::monomers as section;
 use actin_integrate::POSITION_VERLET;
-use actin_sim::{Filament, Monomers, ellipsoid_constants as monomer};
+use actin_sim::{Filament, Monomers, Section, ellipsoid_constants as monomer};
 
 /// Filaments of each kind, for a standard error of 2 to 3 %.
 const FILAMENTS: u64 = 32;
@@ -46,7 +45,7 @@ fn persistence_length_um(draft: &Draft<'_>, monomers: &Monomers) -> Result<(f64,
                 seed: replica,
                 ..monomers.clone()
             },
-            ..Filament::new(vec![section(0.0, LENGTH_NM)])
+            ..Filament::new(vec![Section::ellipsoids(0.0, LENGTH_NM)])
         };
         turns_in_bath(filament, (&POSITION_VERLET, SHARE), replica)
     })?;
