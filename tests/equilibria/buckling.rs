@@ -2,7 +2,7 @@
 
 use super::common::{BEND, LENGTH, SHEAR, build, cantilever, critical, newton, solved};
 use crate::theory::{bisect, second_order_limit};
-use actin_sim::End;
+use actin_sim::{End, Scene, Solve};
 use std::f64::consts::PI;
 
 const MESHES: [usize; 3] = [16, 32, 64];
@@ -127,4 +127,18 @@ fn a_pushed_rod_stays_on_the_side_of_its_force() {
         assert!((middle.x - theory).abs() < 0.05, "{middle}");
         assert_eq!(report.jumps, 0);
     }
+}
+
+/// A path with an abrupt start and a small snap is followed in few iterations; halving each step that crosses the snap
+/// took 707 instead of 428.
+#[test]
+fn a_twisted_filament_buckles_in_few_iterations() {
+    let scene = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../scenarios/figure-8/rod-140.ron"
+    );
+    let ran = Scene::from_path(scene).unwrap().solve().unwrap();
+    let found = ran.outcome.equilibrium.unwrap();
+    assert_eq!(ran.outcome.jumps, 1);
+    assert!(found.newton_iterations < 500, "{}", found.newton_iterations);
 }

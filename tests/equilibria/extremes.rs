@@ -192,8 +192,8 @@ const TURNED: [(&str, &str, f64); 6] = [
     ("two monomers between rods by 360 deg", TWO_MONOMERS, 360.0),
 ];
 
-/// Paths with a small snap that does not end them.
-const SNAPS: [&str; 1] = ["75 nm of monomers by +720 deg"];
+/// Paths with small snaps that do not end them.
+const SNAPS: [&str; 2] = [TURNED[0].0, TURNED[1].0];
 
 const SHIFTED: [(&str, &str, f64); 4] = [
     ("75 nm of monomers pushed by 20 %", MONOMERS_75, -15.0),

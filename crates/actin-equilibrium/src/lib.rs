@@ -57,7 +57,7 @@ pub use newton::Push;
 pub use options::{NewtonOptions, OptionsError};
 pub use outcome::{Convergence, Equilibrium, NewtonFailure, SolveError};
 pub use path::{Path, PathEnd, PathError, PathFailure};
-pub use path_observer::{PathCheckpoint, PathObserver, PathPoint};
+pub use path_observer::{PathCheckpoint, PathObserver, PathPoint, Snap};
 pub use path_options::{Jumps, PathOptions, Saddles};
 pub use relax::{EquilibriumError, relax};
 pub use search::{KnownEquilibrium, Search, SearchObserver, SearchResult, StableEquilibrium};

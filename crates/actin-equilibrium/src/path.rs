@@ -3,6 +3,8 @@
 //! Steps shrink if Newton's method fails or the equilibrium deviates from the prediction. At a
 //! limit point they shrink to the minimum, and the path ends with the last equilibrium.
 
+mod steps;
+
 use crate::evaluation::{Evaluation, passes_through};
 use crate::history::SolverWork;
 use crate::motion::StepSize;
@@ -10,21 +12,11 @@ use crate::newton::Newton;
 use crate::options::OptionsError;
 use crate::outcome::{Equilibrium, NewtonFailure, SolveError};
 use crate::path_observer::{PathCheckpoint, PathObserver, PathPoint};
-use crate::path_options::{Jumps, PathOptions, Saddles};
+use crate::path_options::{PathOptions, Saddles};
 use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
+use steps::{Continuation, Refused, Trial, UNEXPLAINED, motion};
 use thiserror::Error;
-
-/// Ratio of the motion in a step to the extrapolated motion above which the step is a jump. Before
-/// a limit point the ratio is smaller.
-const SUDDEN: f64 = 4.0;
-/// Motion (rad, or strain) below which a step is not a jump. An example is the sudden but small
-/// bending at a critical load.
-const SMALL_MOTION: f64 = 0.1;
-/// Motion (rad, or strain) below which the direction is not compared with the prediction.
-const NEGLIGIBLE_MOTION: f64 = 1e-3;
-/// Component of a motion normal to the prediction, as a fraction, above which the step deviates.
-const UNEXPLAINED: f64 = 0.5;
 
 /// Solver of equilibria for a parameter from 0 to 1 that determines the controls.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -179,13 +171,6 @@ struct Walk<'a> {
     response: Option<Vec<f64>>,
 }
 
-struct Trial {
-    parameter: f64,
-    state: State,
-    equilibrium: Equilibrium,
-    moved: StepSize,
-}
-
 impl<'a> Walk<'a> {
     fn new(
         options: &'a PathOptions,
@@ -237,31 +222,34 @@ impl<'a> Walk<'a> {
         });
     }
 
-    /// One step, reduced until it succeeds. Deviating steps are reduced too; if no smaller step
-    /// succeeds, the original one is accepted as a jump.
+    /// One step, reduced until it succeeds. Deviating steps are reduced too, until one moves in proportion to the step
+    /// refused before it; if no smaller step succeeds, the original one is accepted as a jump.
     fn advance(
         &mut self,
         state: &mut State,
         set: Set<'_>,
         companion: &mut dyn PathObserver,
     ) -> Result<(), (f64, PathError)> {
-        let mut off_course = None;
+        let mut refused = Refused::default();
         loop {
             let next = self.next_parameter();
             let is_smallest = self.at.step <= self.options.smallest_step;
             let cause = match self.attempt(state, next, set, companion) {
                 Ok(trial) => {
-                    let deviation = self.deviation(state, &trial, set);
+                    let mut deviation = self.deviation(state, &trial, set);
+                    if deviation > UNEXPLAINED && !is_smallest {
+                        let straight = self.straightness(state, &trial, &refused);
+                        deviation = straight.unwrap_or(deviation);
+                    }
                     let cause = PathError::Jump(trial.moved);
                     match self.continuation(&trial, deviation) {
                         Continuation::Accepted { jumped } => {
-                            self.adapt(&trial.equilibrium, deviation);
+                            self.watch_snap(&trial, &refused, jumped);
+                            self.adapt(&trial, deviation);
                             return self.arrive(state, trial, jumped, companion);
                         }
-                        Continuation::OffCourse if off_course.is_none() => {
-                            off_course = Some(trial);
-                        }
-                        Continuation::OffCourse | Continuation::Far => {}
+                        Continuation::OffCourse => refused.push(trial, true),
+                        Continuation::Far => refused.push(trial, false),
                     }
                     cause
                 }
@@ -271,11 +259,11 @@ impl<'a> Walk<'a> {
                 return Err((next, cause));
             }
             if is_smallest {
-                let Some(trial) = off_course else {
+                let Some(trial) = refused.off_course else {
                     return Err((next, self.lost_stability(state, next, set).unwrap_or(cause)));
                 };
-                self.at.step = trial.parameter - self.at.parameter;
-                self.adapt(&trial.equilibrium, UNEXPLAINED);
+                (self.at.step, self.at.snap) = (trial.parameter - self.at.parameter, None);
+                self.adapt(&trial, UNEXPLAINED);
                 return self.arrive(state, trial, true, companion);
             }
             let at = &mut self.at;
@@ -296,116 +284,11 @@ impl<'a> Walk<'a> {
         Ok(self.trial(state, next, trial, equilibrium))
     }
 
-    fn trial(&self, last: &State, parameter: f64, state: State, equilibrium: Equilibrium) -> Trial {
-        let solver = &self.newton.solver;
-        let extent = solver
-            .layout
-            .step_extent(&solver.layout.difference(last, &state));
-        let moved = StepSize {
-            strain: solver.assembly.ties().strain_between(last, &state),
-            ..extent
-        };
-        Trial {
-            parameter,
-            state,
-            equilibrium,
-            moved,
-        }
-    }
-
-    fn continuation(&self, trial: &Trial, deviation: f64) -> Continuation {
-        let is_smallest = self.at.step <= self.options.smallest_step;
-        let far = trial.moved.rotation > self.options.largest_turn
-            || trial.moved.strain > self.options.largest_strain
-            || self.is_sudden(trial);
-        let unexplained = deviation > UNEXPLAINED;
-        let keeps_saddles = self.options.saddles == Saddles::Keep;
-        let accepts_jumps = is_smallest && self.options.jumps == Jumps::Accept;
-        if accepts_jumps || !far && (!unexplained || is_smallest || keeps_saddles) {
-            let jumped = far || unexplained;
-            return Continuation::Accepted { jumped };
-        }
-        if far {
-            Continuation::Far
-        } else {
-            Continuation::OffCourse
-        }
-    }
-
     fn lost_stability(&mut self, state: &State, next: f64, set: Set<'_>) -> Option<PathError> {
         let predicted = self.predict(state, next, set).ok()?;
         let nearest = self.newton.nearest(&predicted, self.interactions);
         let negative = nearest.ok().flatten()?.certificate.negative;
         (negative > 0).then_some(PathError::Unstable { negative })
-    }
-
-    /// Motion per parameter in the last step, unless it was a jump.
-    fn secant(&self, state: &State) -> Option<Vec<f64>> {
-        let (previous, before) = self.at.previous.as_ref()?;
-        let from = state.in_motion(previous.clone());
-        let way = self.newton.layout().difference(&from, state);
-        let stretch = self.at.parameter - before;
-        Some(way.into_iter().map(|way| way / stretch).collect())
-    }
-
-    /// Motion per parameter by linear response; `None` if the stiffness is not positive definite.
-    fn linear_response(&mut self, state: &State, set: Set<'_>) -> Option<Vec<f64>> {
-        let solver = &mut self.newton.solver;
-        solver.prepare(state, self.interactions).ok()?;
-        if solver.has_weak_mode() {
-            return None;
-        }
-        let mut moved = state.clone();
-        let step = self.options.smallest_step;
-        set(&mut moved, self.at.parameter + step);
-        let after = self.newton.generalised_loads(&moved, self.interactions);
-        let solver = &mut self.newton.solver;
-        solver.work.evaluations += 1;
-        let loads = after.iter().zip(&solver.reduced);
-        let mut rate: Vec<f64> = loads.map(|(a, b)| (a - b) / step).collect();
-        solver.factorize(0.0);
-        solver.solve(&mut rate);
-        Some(rate)
-    }
-
-    /// Fraction of the motion that deviates from the secant, or from the linear response without a
-    /// secant. Near a limit point the linear response is too large to detect a small snap.
-    fn deviation(&mut self, state: &State, trial: &Trial, set: Set<'_>) -> f64 {
-        if trial.equilibrium.saddles_left > 0 || motion(&trial.moved) <= NEGLIGIBLE_MOTION {
-            return 0.0;
-        }
-        if let Some(secant) = self.secant(state) {
-            return self.deviation_from(&secant, state, trial);
-        }
-        if self.response.is_none() {
-            self.response = self.linear_response(state, set);
-        }
-        let response = self.response.as_deref();
-        response.map_or(0.0, |rate| self.deviation_from(rate, state, trial))
-    }
-
-    /// Fraction of the motion normal to `rate`.
-    fn deviation_from(&self, rate: &[f64], state: &State, trial: &Trial) -> f64 {
-        let way = self.newton.layout().difference(state, &trial.state);
-        let metric = &self.newton.solver.metric;
-        let product = |a: &[f64], b: &[f64]| -> f64 {
-            let terms = a.iter().zip(b).zip(metric);
-            terms.map(|((a, b), m)| m * a * b).sum()
-        };
-        let along = product(&way, rate) / product(rate, rate).max(f64::MIN_POSITIVE);
-        let along = along.clamp(0.0, SUDDEN * (trial.parameter - self.at.parameter));
-        let off: Vec<f64> = way.iter().zip(rate).map(|(w, r)| w - along * r).collect();
-        (product(&off, &off) / product(&way, &way).max(f64::MIN_POSITIVE)).sqrt()
-    }
-
-    /// Detects snap-through. Motions off a saddle are always large and not tested.
-    fn is_sudden(&self, trial: &Trial) -> bool {
-        let motion = motion(&trial.moved);
-        let stretch = trial.parameter - self.at.parameter;
-        let expected = self.at.rate.map(|rate| rate * stretch);
-        trial.equilibrium.saddles_left == 0
-            && motion > SMALL_MOTION
-            && expected.is_some_and(|expected| motion > SUDDEN * expected)
     }
 
     /// Next parameter; 1 if less than the smallest step would remain.
@@ -483,19 +366,6 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Chooses the next step; along a smooth path the deviation increases with the step.
-    fn adapt(&mut self, equilibrium: &Equilibrium, deviation: f64) {
-        let iterations = equilibrium.history.len();
-        let step = &mut self.at.step;
-        if iterations <= self.options.easy && deviation < 0.5 * UNEXPLAINED {
-            *step *= 2.0;
-        } else if iterations > self.options.hard {
-            *step *= 0.5;
-        }
-        let (smallest, largest) = (self.options.smallest_step, self.options.largest_step);
-        *step = step.clamp(smallest, largest);
-    }
-
     fn arrive(
         &mut self,
         state: &mut State,
@@ -532,15 +402,4 @@ impl<'a> Walk<'a> {
         }
         Ok(())
     }
-}
-
-enum Continuation {
-    Accepted { jumped: bool },
-    OffCourse,
-    Far,
-}
-
-/// Maximum of the largest rotation and the largest relative motion of neighbours.
-fn motion(moved: &StepSize) -> f64 {
-    moved.rotation.max(moved.strain)
 }

@@ -45,6 +45,18 @@ impl<F: FnMut(&PathPoint<'_>) -> ControlFlow<()>> PathObserver for F {
     }
 }
 
+/// Sudden motion between the last equilibrium of a path and a parameter ahead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Snap {
+    /// Parameter at the end of the refused step.
+    pub parameter: f64,
+    /// Motion up to that parameter (rad, or strain).
+    pub motion: f64,
+    /// A longer step across it was neither too large nor too sudden. The path may then cross it by a jump.
+    pub is_small: bool,
+}
+
 /// Checkpoint of a path: with the state, it determines the rest of the path.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -57,6 +69,8 @@ pub struct PathCheckpoint {
     pub previous: Option<(Motion, f64)>,
     /// Motion per parameter in the last step, unless it was a jump.
     pub rate: Option<f64>,
+    /// Snap ahead, which steps approach by halves.
+    pub snap: Option<Snap>,
     /// Number of equilibria so far.
     pub points: usize,
     /// Number of rejected steps, each repeated with a smaller step.
@@ -70,6 +84,7 @@ impl PathCheckpoint {
             step: options.first_step,
             previous: None,
             rate: None,
+            snap: None,
             points: 0,
             refused: 0,
         }

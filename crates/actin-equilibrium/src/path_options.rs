@@ -13,7 +13,8 @@ pub enum Saddles {
     Keep,
 }
 
-/// Treatment of steps that move too far even with the smallest step.
+/// Treatment of steps that move too far even with the smallest step. Small snaps, which longer steps could cross, are
+/// crossed and marked in both cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Jumps {
     /// End the path before the jump.

@@ -90,7 +90,7 @@ impl Shape {
         let points = solution.assembly.points.iter().enumerate();
         let monomers = points.filter(|(_, info)| info.frame.is_some());
         let position = &solution.state().points.position;
-        let line = solution.centre_line_nm().into_iter();
+        let line = solution.centre_line_nm(0).into_iter();
         Self {
             line: line.map(Into::into).collect(),
             monomers: monomers.map(|(i, _)| position.get(i).into()).collect(),

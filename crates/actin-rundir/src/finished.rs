@@ -3,7 +3,8 @@
 use crate::names::SCENE;
 use crate::{RunDirectory, RunDirectoryError, StateIter, StoredStates};
 use actin_sim::mechanics::State;
-use actin_sim::{Assembly, At, Scene};
+use actin_sim::{Assembly, At, Scene, SceneError};
+use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
@@ -74,7 +75,14 @@ fn read_scene(path: &Path) -> Result<Scene, RunDirectoryError> {
     if !file.exists() {
         return Err(RunDirectoryError::NotARun(path.into()));
     }
-    Scene::from_path(file).map_err(RunDirectoryError::Scene)
+    let bytes = fs::read(&file).map_err(RunDirectoryError::io(&file))?;
+    let scene = Scene::text(bytes).and_then(|text| Scene::from_ron(&text));
+    scene.map_err(|error| {
+        RunDirectoryError::Scene(SceneError {
+            file: Some(file),
+            ..error
+        })
+    })
 }
 
 #[cfg(test)]

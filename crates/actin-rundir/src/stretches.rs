@@ -8,8 +8,8 @@
 //! | `switches.csv` | time, position and changes of energy and momentum of each switch |
 //! | `energies.csv`, `observables.csv` | tables of all stretches, concatenated; without energies of parts |
 //!
-//! Each switch has two records at the same time, before and after it, which do not fit the interval of the others:
-//! means over the rows of these tables count moments of switches more often than other moments.
+//! Each switch adds two records at its time, before and after it, to the regular ones: means over the rows of these
+//! tables give moments of switches more weight.
 
 use crate::RunDirectoryError;
 use crate::atomic::unfinished;

@@ -1,8 +1,8 @@
 //! Construction of scenes in Rust: constructors with the required parts, and additions by value.
 
 use super::{
-    Brownian, Clamp, DragModel, DragRates, Dynamics, End, Equilibrium, FreeTranslation, Linker,
-    Load, Observable, Scene, Section, Setting, Stage, Task, TimeCourse,
+    Brownian, Clamp, DragModel, DragRates, Dynamics, End, Equilibrium, FreeTranslation, Load,
+    Scene, Section, Setting, Stage, Task, TimeCourse,
 };
 
 impl Scene {
@@ -17,27 +17,6 @@ impl Scene {
     #[must_use]
     pub fn load(mut self, load: Load) -> Self {
         self.loads.push(load);
-        self
-    }
-
-    /// Adds a linker.
-    #[must_use]
-    pub fn linker(mut self, linker: Linker) -> Self {
-        self.linkers.push(linker);
-        self
-    }
-
-    /// Adds a stage to the path.
-    #[must_use]
-    pub fn stage(mut self, stage: Stage) -> Self {
-        self.path.push(stage);
-        self
-    }
-
-    /// Adds a quantity that every record has.
-    #[must_use]
-    pub fn observe(mut self, observable: Observable) -> Self {
-        self.observe.push(observable);
         self
     }
 }
@@ -120,15 +99,6 @@ impl Stage {
             set: set.into(),
             duration_ns: None,
             pace: TimeCourse::default(),
-        }
-    }
-
-    /// Returns the stage with a duration (ns), which motions require.
-    #[must_use]
-    pub fn over_ns(self, duration_ns: f64) -> Self {
-        Self {
-            duration_ns: Some(duration_ns),
-            ..self
         }
     }
 }

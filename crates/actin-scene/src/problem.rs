@@ -89,7 +89,7 @@ impl Problems {
 pub struct SceneError {
     /// File, if the scene was read from a path.
     pub file: Option<PathBuf>,
-    /// Line, counted from 1.
+    /// Line, counted from 1; 0 if the file cannot be read.
     pub line: usize,
     /// Column in characters, counted from 1.
     pub column: usize,
@@ -142,6 +142,9 @@ impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(file) = &self.file {
             write!(f, "{}:", file.display())?;
+            if self.line == 0 {
+                return write!(f, " {}", self.message);
+            }
         }
         match &self.set {
             None => write!(f, "{}:{}: {}", self.line, self.column, self.message),

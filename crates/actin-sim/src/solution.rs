@@ -1,7 +1,7 @@
 //! Scenes run in memory.
 
 use crate::loads::loads_of;
-use crate::scene::{End, Scene, SceneProblem};
+use crate::scene::{End, Scene};
 use crate::summary::reported_tip;
 use crate::trade::build;
 use crate::{Assembly, BodyKind, Outcome, Plan, Reaction, Record, RunError, Summary, Trajectory};
@@ -35,10 +35,6 @@ pub trait Solve {
 
 impl Solve for Scene {
     fn solve(&self) -> Result<Solution, RunError> {
-        if self.filament.sections.following().is_some() {
-            let rule = "must be run by `actin_sim::follow::Follower`";
-            return Err(SceneProblem::new("filament.sections", "Following(..)", rule).into());
-        }
         Solution::new(build(self)?)
     }
 }
@@ -55,7 +51,7 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Runs the task of an assembly.
+    /// Runs the task of an assembly from its current state.
     ///
     /// # Errors
     /// As [`Plan::new`] and [`Plan::run`].
@@ -90,7 +86,7 @@ impl Solution {
         self.assembly.tip_nm(self.state(), self.tip())
     }
 
-    /// Returns the displacement of that tip from the initial state (nm, lab frame).
+    /// Returns the displacement of that tip from the filament as built, without imperfections (nm, lab frame).
     pub fn tip_displacement_nm(&self) -> Vector3 {
         self.tip_nm() - self.assembly.tip_nm(&self.assembly.rest, self.tip())
     }
@@ -107,24 +103,30 @@ impl Solution {
         Some(clamp.reaction(self.state(), &loads))
     }
 
-    /// Returns the points of the centre line of all filaments in the last state (nm, lab frame), in their order along
-    /// the filaments.
-    pub fn centre_line_nm(&self) -> Vec<Vector3> {
-        let points = 0..self.assembly.points.len();
+    /// Returns the points of the centre line of a filament in the last state (nm, lab frame), in their order along it.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn centre_line_nm(&self, filament: usize) -> Vec<Vector3> {
+        let points = self.assembly.filaments[filament].points.clone();
         points
             .map(|i| self.assembly.centre_line_nm(self.state(), i))
             .collect()
     }
 
-    /// Returns arc lengths at rest (nm) and orientations (body to lab) of the monomers and segments of all filaments in
-    /// the last state, in their order along the filaments.
-    pub fn frames(&self) -> Vec<(f64, UnitQuaternion)> {
-        let frames = self.assembly.frames.iter().enumerate();
+    /// Returns arc lengths at rest (nm) and orientations (body to lab) of the monomers and segments of a filament in the
+    /// last state, in their order along it.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn frames(&self, filament: usize) -> Vec<(f64, UnitQuaternion)> {
+        let frames = &self.assembly.frames;
+        let bodies = self.assembly.filaments[filament].frames.clone();
         let bodies =
-            frames.filter(|(_, frame)| matches!(frame.kind, BodyKind::Monomer | BodyKind::Segment));
+            bodies.filter(|&i| matches!(frames[i].kind, BodyKind::Monomer | BodyKind::Segment));
         let orientation = &self.state().frames.orientation;
         bodies
-            .map(|(i, frame)| (frame.s_nm, orientation.get(i)))
+            .map(|i| (frames[i].s_nm, orientation.get(i)))
             .collect()
     }
 
@@ -134,7 +136,7 @@ impl Solution {
     /// If records were removed.
     pub fn summary(&self) -> Summary {
         Summary::from_run(&self.assembly, &self.trajectory, &self.outcome)
-            .expect("the records are those of the assembly")
+            .expect("the records belong to the assembly")
     }
 }
 
@@ -167,13 +169,13 @@ mod tests {
         let reaction = solution.end_reaction(End::Start).unwrap();
         assert_eq!(Some(reaction.into()), summary.end_reactions.start);
         assert!(solution.end_reaction(End::End).is_none());
-        let frames = solution.frames();
+        let frames = solution.frames(0);
         assert_eq!(
             frames.len(),
             summary.counts.monomers + summary.counts.segments
         );
         assert!(frames.is_sorted_by(|(a, _), (b, _)| a < b));
-        let line = solution.centre_line_nm();
+        let line = solution.centre_line_nm(0);
         assert_eq!(line.last(), Some(&solution.tip_nm()));
     }
 

@@ -9,8 +9,7 @@ use super::{Options, run};
 use crate::measure::{Specimen, bend_by_couples, stretch_by_force, twist};
 use actin_cosserat::StretchLaw;
 use actin_fit::{Fit, Model};
-use actin_sim::Scene;
-use actin_sim::Solve;
+use actin_sim::{Scene, Solve};
 use std::path::Path;
 
 /// Normal deviates: sums of twelve uniform deviates.

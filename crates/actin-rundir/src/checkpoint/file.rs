@@ -16,7 +16,7 @@ use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ACTINCKP";
 /// Version of the format; increase it with every change, including changes to the records.
-const FORMAT: u32 = 12;
+const FORMAT: u32 = 13;
 /// Length of the header: magic, version, length and checksum of the contents, checksum of the
 /// header.
 const HEADER: usize = 8 + 4 + 8 + 4 + 4;

@@ -4,7 +4,6 @@ use super::*;
 use crate::names::STATES;
 use actin_sim::Plan;
 use actin_sim::mechanics::State;
-use std::fs;
 
 fn scene(task: &str, stage: &str) -> String {
     format!(

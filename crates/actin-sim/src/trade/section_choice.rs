@@ -29,6 +29,7 @@ pub fn build(scene: &Scene) -> Result<Assembly, SceneProblem> {
     if filaments.all(|filament| filament.sections.adaptive().is_none()) {
         return Assembly::build(scene);
     }
+    scene.validate()?;
     let (scene, chosen) = choose(scene)?;
     let mut built = Assembly::build(&scene)?;
     built.build_s += chosen.wall_s;

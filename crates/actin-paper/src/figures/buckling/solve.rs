@@ -199,7 +199,7 @@ impl BuckledState {
         let beyond = assembly.beyond_range(state).into_iter();
         let beyond = beyond.filter(|b| !b.is_strain());
         let centre_line: Vec<[f64; 3]> = solved
-            .centre_line_nm()
+            .centre_line_nm(0)
             .into_iter()
             .map(Into::into)
             .collect();
