@@ -79,7 +79,7 @@ impl Walk<'_> {
         (deviation < STRAIGHT).then_some(deviation)
     }
 
-    /// Notes a snap between an accepted step and a larger refused one, and forgets a noted one that is not ahead.
+    /// Sets the snap between an accepted step and a larger refused one, and removes an earlier one that is not ahead.
     pub(super) fn watch_snap(&mut self, trial: &Trial, refused: &Refused, jumped: bool) {
         let known = self.at.snap.filter(|_| !jumped);
         let found = refused.last().filter(|_| !jumped).map(|behind| Snap {
