@@ -19,7 +19,7 @@ const NEGLIGIBLE_MOTION: f64 = 1e-3;
 pub(super) const UNEXPLAINED: f64 = 0.5;
 /// Difference of a refused step and its half in proportion, as a fraction, below which the path is straight.
 const STRAIGHT: f64 = 0.15;
-/// Motion up to a refused step over the extrapolated motion, above which there is a snap on the way.
+/// Ratio of the motion up to a refused step to the extrapolated motion that indicates a snap.
 const OUT_OF_PROPORTION: f64 = 2.0;
 /// Part of the largest motion that a longer step is expected to make.
 const NEARLY: f64 = 0.9;
